@@ -1,0 +1,10 @@
+//! Vectors, math that gives the same bits on every machine, counter-based random numbers, Sobol points,
+//! distributions, warps and quadrature.
+//!
+//! Nothing here calls the platform's `libm`, and nothing contracts a product and a sum: a release build, a
+//! portable build and a build for another processor give the same bits.
+#![forbid(unsafe_code)]
+
+pub mod vec;
+
+pub use vec::{Vec2, Vec3};

@@ -1,0 +1,1 @@
+//! The engine: job, rounds of work units, threads, merge, stop rules.

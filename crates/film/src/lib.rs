@@ -1,0 +1,1 @@
+//! Film: order-free accumulators, replicates, standard errors, filters, sensors.

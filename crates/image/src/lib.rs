@@ -1,0 +1,1 @@
+//! Image files: EXR (RGB and spectral), PNG, PFM and textures.

@@ -1,0 +1,1 @@
+//! Readers: pbrt-v4 scenes into a renderable scene, PLY meshes.

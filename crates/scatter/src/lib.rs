@@ -1,0 +1,1 @@
+//! Scattering models: phase functions and BSDFs.

@@ -1,0 +1,2 @@
+//! Statistical tests for samplers, estimators and images.
+#![forbid(unsafe_code)]

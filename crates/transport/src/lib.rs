@@ -1,0 +1,1 @@
+//! The scene as light sees it: media, lights, cameras, textures, materials.

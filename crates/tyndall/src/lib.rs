@@ -1,0 +1,1 @@
+//! Tyndall as a library: load a scene, render it, write the result.
