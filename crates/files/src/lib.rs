@@ -1,0 +1,1 @@
+//! File formats: EXR (RGB and spectral), PNG, PFM and other textures, PLY meshes.

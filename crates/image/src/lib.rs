@@ -1,1 +1,0 @@
-//! Image files: EXR (RGB and spectral), PNG, PFM and textures.
