@@ -80,6 +80,19 @@ impl Vec3 {
         self * (1.0 / self.length())
     }
 
+    /// Unit vectors `(t, b)` such that `(t, b, self)` is orthonormal and right-handed; `self` must be a unit vector.
+    /// Duff et al. 2017, "Building an orthonormal basis, revisited", listing 3.
+    #[inline(always)]
+    pub fn tangents(self) -> (Self, Self) {
+        let sign = 1.0_f32.copysign(self.z);
+        let a = -1.0 / (sign + self.z);
+        let b = self.x * self.y * a;
+        (
+            vec3(1.0 + sign * self.x * self.x * a, sign * b, -sign * self.x),
+            vec3(b, sign + self.y * self.y * a, -self.y),
+        )
+    }
+
     /// Components' absolute values.
     #[inline(always)]
     pub fn abs(self) -> Self {
@@ -206,6 +219,15 @@ linear!(Vec3 { x, y, z });
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tangents_complete_a_right_handed_basis() {
+        for n in [vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, -1.0), vec3(0.48, -0.6, -0.64), vec3(-0.8, 0.0, 0.6)] {
+            let (t, b) = n.tangents();
+            assert!(t.dot(n).abs() < 1e-6 && b.dot(n).abs() < 1e-6 && (t.length() - 1.0).abs() < 1e-6);
+            assert!((t.cross(b) - n).length() < 1e-6);
+        }
+    }
 
     #[test]
     fn cross_is_orthogonal_and_right_handed() {
