@@ -19,9 +19,20 @@ pub struct Wavelengths<const N: usize> {
 }
 
 impl<const N: usize> Wavelengths<N> {
+    /// Wavelengths on the continuum \[nm\] with their densities \[1/nm\].
+    pub fn continuum(lambda: [f32; N], pdf: [f32; N]) -> Self {
+        Self { lambda, pdf, line: [CONTINUUM; N] }
+    }
+
     /// The hero's wavelength \[nm\].
     #[inline(always)]
     pub fn hero(&self) -> f32 {
         self.lambda[0]
+    }
+
+    /// True when slot `k` carries a spectral line.
+    #[inline(always)]
+    pub fn on_line(&self, k: usize) -> bool {
+        self.line[k] != CONTINUUM
     }
 }
