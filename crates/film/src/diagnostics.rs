@@ -1,0 +1,73 @@
+//! What was wrong with samples, and what was done about it. Nothing is dropped in silence.
+
+use crate::fixed;
+
+/// How many bad samples are remembered one by one.
+pub const REMEMBERED: usize = 16;
+
+/// A sample that was dropped, with all that is needed to replay it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BadSample {
+    /// Index of the sample in its pixel.
+    pub sample: u32,
+    /// Row.
+    pub y: u32,
+    /// Column.
+    pub x: u32,
+    /// The job's seed.
+    pub seed: u64,
+}
+
+/// Counts of samples that were dropped or clamped.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Diagnostics {
+    /// Samples dropped because a channel was infinite or not a number.
+    pub non_finite: u64,
+    /// Samples dropped because a channel was 2^31 or more in magnitude, beyond what the sums can hold.
+    pub out_of_range: u64,
+    /// Samples that the firefly clamp scaled down.
+    pub clamped: u64,
+    /// Sums of squares that overflowed: errors of such pixels are meaningless.
+    pub overflows: u64,
+    pub(crate) removed: i128,
+    pub(crate) first: Vec<BadSample>,
+}
+
+impl Diagnostics {
+    /// Sum of Y over all samples that the clamp took away.
+    pub fn clamp_removed(&self) -> f64 {
+        fixed::to_f64(self.removed)
+    }
+
+    /// The dropped samples of least index, at most [`REMEMBERED`].
+    pub fn first_bad(&self) -> &[BadSample] {
+        &self.first
+    }
+
+    /// True when no sample was dropped, clamped or lost.
+    pub fn is_clean(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Remembers the samples of least index: a rule that does not depend on the order of arrival.
+    pub(crate) fn remember(&mut self, bad: BadSample) {
+        let at = self.first.partition_point(|b| *b < bad);
+        self.first.insert(at, bad);
+        self.first.truncate(REMEMBERED);
+    }
+
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.non_finite += other.non_finite;
+        self.out_of_range += other.out_of_range;
+        self.clamped += other.clamped;
+        self.overflows += other.overflows;
+        self.removed += other.removed;
+        other.first.iter().for_each(|&b| self.remember(b));
+    }
+
+    pub(crate) fn clear(&mut self) {
+        let mut first = std::mem::take(&mut self.first);
+        first.clear();
+        *self = Self { first, ..Self::default() };
+    }
+}

@@ -1,0 +1,145 @@
+//! Exact sums: integers in fixed point, so that addition commutes and associates to the bit.
+//!
+//! A sample `v` (f32, |v| < 2^31) enters a sum of values as `v * 2^64` in an `i128`, and a sum of squares as
+//! `v^2 * 2^112` in an unsigned integer of 192 bits; what lies below the quantum is rounded to nearest, once per sample.
+//! With at most 2^32 samples a sum of values cannot overflow.
+
+/// Samples of at least this magnitude are refused.
+pub(crate) const LIMIT: f32 = 2_147_483_648.0;
+
+const VALUE_BITS: i32 = 64;
+const SQUARE_BITS: i32 = 112;
+
+/// Sum of squares, least limb first.
+pub(crate) type Square = [u64; 3];
+
+/// Magnitude and exponent: `|v| = m * 2^e`.
+#[inline(always)]
+fn decompose(v: f32) -> (u64, i32) {
+    let bits = v.to_bits();
+    let biased = ((bits >> 23) & 0xff) as i32;
+    let fraction = u64::from(bits & 0x007f_ffff);
+    // subnormals have no hidden bit and the exponent of the least normal
+    let hidden = u64::from(biased != 0) << 23;
+    (fraction | hidden, biased.max(1) - 150)
+}
+
+/// `m / 2^shift` rounded to nearest, ties away from zero, for a mantissa below 2^62 and `shift > 0`.
+#[inline(always)]
+fn shift_right(m: u64, shift: u32) -> u64 {
+    if shift > 63 { 0 } else { ((m >> (shift - 1)) + 1) >> 1 }
+}
+
+/// `v * 2^64` for |v| < 2^31.
+#[inline(always)]
+pub(crate) fn to_fixed(v: f32) -> i128 {
+    let (m, e) = decompose(v);
+    let shift = e + VALUE_BITS;
+    let magnitude =
+        if shift >= 0 { i128::from(m) << shift } else { i128::from(shift_right(m, shift.unsigned_abs())) };
+    if v.is_sign_negative() { -magnitude } else { magnitude }
+}
+
+/// The value of a sum.
+#[inline]
+pub(crate) fn to_f64(sum: i128) -> f64 {
+    sum as f64 * exp2i(-VALUE_BITS)
+}
+
+/// Adds `square`, a number >= 0 below 2^63 (the square of a sample); true when the sum overflowed.
+#[inline(always)]
+pub(crate) fn add_square(sum: &mut Square, square: f64) -> bool {
+    let bits = square.to_bits();
+    let biased = (bits >> 52) as i32;
+    if biased == 0 {
+        return false;
+    }
+    let m = (bits & ((1 << 52) - 1)) | (1 << 52);
+    let shift = biased - 1075 + SQUARE_BITS;
+    let (upper, wide) = if shift >= 0 {
+        (shift >= 64, u128::from(m) << (shift & 63))
+    } else {
+        (false, u128::from(shift_right(m, shift.unsigned_abs())))
+    };
+    let (lo, hi) = (wide as u64, (wide >> 64) as u64);
+    add_limbs(sum, if upper { [0, lo, hi] } else { [lo, hi, 0] })
+}
+
+/// Adds a sum of squares; true when it overflowed.
+#[inline(always)]
+pub(crate) fn add_limbs(sum: &mut Square, b: Square) -> bool {
+    let low = u128::from(sum[0]) + u128::from(b[0]);
+    let mid = u128::from(sum[1]) + u128::from(b[1]) + (low >> 64);
+    let top = u128::from(sum[2]) + u128::from(b[2]) + (mid >> 64);
+    *sum = [low as u64, mid as u64, top as u64];
+    top >> 64 != 0
+}
+
+/// The value of a sum of squares.
+#[inline]
+pub(crate) fn square_to_f64(sum: Square) -> f64 {
+    let upper = (u128::from(sum[2]) << 64) | u128::from(sum[1]);
+    upper as f64 * exp2i(64 - SQUARE_BITS) + sum[0] as f64 * exp2i(-SQUARE_BITS)
+}
+
+/// `2^e` for a normal exponent, exact.
+const fn exp2i(e: i32) -> f64 {
+    f64::from_bits(((e + 1023) as u64) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn values_of_24_bits_above_the_quantum_are_exact() {
+        for v in [1.0, -1.0, 0.1, -0.3, 1e9, -2e9, 1e-10, 3.5e-12, 0.0, f32::EPSILON] {
+            assert_eq!(to_f64(to_fixed(v)), f64::from(v), "{v}");
+        }
+        assert_eq!(to_fixed(1e-30), 0);
+        assert_eq!(to_fixed(f32::from_bits(1)), 0);
+        assert_eq!(to_fixed(exp2i(-65) as f32), 1); // tie: away from zero
+        assert_eq!(to_fixed(exp2i(-66) as f32), 0);
+    }
+
+    #[test]
+    fn squares_are_exact() {
+        for v in [1.0f32, -1.0, 0.1, -0.3, 1e9, -2e9, 1e-6, 0.0, 0.5, 0.49999997] {
+            let mut s = [0; 3];
+            assert!(!add_square(&mut s, f64::from(v) * f64::from(v)));
+            assert_eq!(square_to_f64(s), f64::from(v) * f64::from(v), "{v}");
+        }
+        let mut s = [0; 3];
+        let exact = f64::from(1e-10f32) * f64::from(1e-10f32);
+        add_square(&mut s, exact);
+        assert!((square_to_f64(s) / exact - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn overflow_of_squares_is_told() {
+        let mut s = [u64::MAX; 3];
+        assert!(add_square(&mut s, 1.0));
+    }
+
+    proptest! {
+        #[test]
+        fn any_order_gives_the_same_bits(v in prop::collection::vec(-1e6f32..1e6, 1..40), seed in 0usize..1000) {
+            let sum = |order: &[usize]| {
+                let mut s = (0i128, [0u64; 3]);
+                for &i in order {
+                    s.0 += to_fixed(v[i]);
+                    add_square(&mut s.1, f64::from(v[i]) * f64::from(v[i]));
+                }
+                s
+            };
+            let forward: Vec<usize> = (0..v.len()).collect();
+            let mut other = forward.clone();
+            other.rotate_left(seed % v.len());
+            other.reverse();
+            prop_assert_eq!(sum(&forward), sum(&other));
+            let exact: f64 = v.iter().map(|&x| f64::from(x)).sum();
+            prop_assert!((to_f64(sum(&forward).0) - exact).abs() <= 1e-9 * exact.abs().max(1.0));
+        }
+    }
+}
