@@ -5,6 +5,10 @@
 //! portable build and a build for another processor give the same bits.
 #![forbid(unsafe_code)]
 
+pub mod hash;
+pub mod math;
+pub mod rng;
 pub mod vec;
+pub mod warp;
 
 pub use vec::{Vec2, Vec3};

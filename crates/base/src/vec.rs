@@ -101,7 +101,7 @@ impl Vec3 {
 
     /// Component-wise product.
     #[inline(always)]
-    pub fn mul(self, b: Self) -> Self {
+    pub fn hadamard(self, b: Self) -> Self {
         vec3(self.x * b.x, self.y * b.y, self.z * b.z)
     }
 
@@ -140,6 +140,13 @@ impl From<[f32; 3]> for Vec3 {
     #[inline(always)]
     fn from(a: [f32; 3]) -> Self {
         vec3(a[0], a[1], a[2])
+    }
+}
+
+impl From<Vec3> for [f32; 3] {
+    #[inline(always)]
+    fn from(v: Vec3) -> Self {
+        v.to_array()
     }
 }
 
