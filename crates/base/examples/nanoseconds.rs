@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use tyndall_base::{hash, math, rng::Pcg32, warp};
+use tyndall_base::{hash, math, rng::Pcg32, sobol, warp};
 
 /// Best of many runs of `f` over a thousand inputs, in nanoseconds a call.
 fn time<T: Copy, R: Copy>(name: &str, input: impl Fn(u32) -> T, f: impl Fn(T) -> R) {
@@ -49,6 +49,11 @@ fn main() {
     time("hash2", |i| i, |i| hash::hash2(i, 7));
     time("hash4", |i| i, |i| hash::hash4(i, 7, 9, 11));
     time("Pcg32, keyed, one number", u64::from, |i| Pcg32::from_key(i).next_f32());
+    time("sobol_1d", |i| (i, 7), |(i, seed)| black_box(sobol::sobol_1d(i, seed)));
+    time("sobol_2d", |i| (i, 7), |(i, seed)| black_box(sobol::sobol_2d(i, seed)));
+    let of = |i| (sobol::SobolIndex::new(i), i);
+    time("SobolIndex::d2", of, |(i, seed)| black_box(i.d2(seed)));
+    time("sobol_4d", |i| (i, 7), |(i, seed)| black_box(sobol::sobol_4d(i, seed)));
     time("concentric disk", square, warp::sample_concentric_disk);
     time("cosine hemisphere", square, warp::sample_cosine_hemisphere);
     time("uniform sphere", square, warp::sample_uniform_sphere);

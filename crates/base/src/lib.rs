@@ -8,6 +8,7 @@
 pub mod hash;
 pub mod math;
 pub mod rng;
+pub mod sobol;
 pub mod vec;
 pub mod warp;
 
