@@ -1,0 +1,150 @@
+//! How light is followed: integrator, wavelengths, depth.
+
+use clap::{Args, ValueEnum};
+
+use super::Conflict;
+use crate::args::value::positive;
+
+/// Wavelengths on a path that the program is compiled for.
+const HERO_WAVELENGTHS: [u32; 4] = [1, 4, 8, 16];
+
+/// How light is followed.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Light")]
+pub struct LightArgs {
+    /// How paths are made [default: the scene's]
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub integrator: Option<Integrator>,
+    /// Longest path, counted as pbrt counts; -1 is unlimited [default: the scene's, else 5]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(-1..))]
+    pub max_depth: Option<i32>,
+    /// How wavelengths travel
+    #[arg(long, value_enum, value_name = "STRATEGY", default_value_t = SpectralStrategy::Hero)]
+    pub spectral: SpectralStrategy,
+    /// Number of wavelengths [default: 8 for hero, the continuum for opow]
+    ///
+    /// For hero: on one path, and one of 1, 4, 8, 16. For opow: size of a fixed set of equidistant wavelengths, any
+    /// number, of which each path carries one; without it each path draws its own from the continuum.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub wavelengths: Option<u32>,
+    /// Where the wavelengths of a fixed set lie [default: midpoint]
+    #[arg(long, value_enum, value_name = "RULE")]
+    pub wavelength_rule: Option<WavelengthRule>,
+    /// Density that wavelengths are drawn from [default: light]
+    #[arg(long, value_enum, value_name = "DENSITY")]
+    pub wavelength_pdf: Option<WavelengthPdf>,
+    /// Clamp samples of a larger luminance, and say what was removed [default: never]
+    #[arg(long, value_name = "LUMINANCE", value_parser = positive)]
+    pub firefly_clamp: Option<f64>,
+    /// Seed of all random numbers [default: the scene's, else 0]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+/// How paths are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[non_exhaustive]
+pub enum Integrator {
+    /// Path tracing in media with every technique that reduces its noise
+    Volpath,
+    /// Absorption and scattering as events, no light sampling: slow, simple, an independent judge
+    Analog,
+}
+
+/// How wavelengths travel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[non_exhaustive]
+pub enum SpectralStrategy {
+    /// Several on one path, one of which leads; spectral multiple importance sampling
+    Hero,
+    /// One path, one wavelength
+    Opow,
+}
+
+/// Where the wavelengths of a fixed set lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum WavelengthRule {
+    /// In the middle of N equal parts of the spectral range
+    Midpoint,
+    /// From one end of the spectral range to the other
+    Endpoints,
+}
+
+/// Density that wavelengths are drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum WavelengthPdf {
+    /// What the lights emit and the film sees
+    Light,
+    /// What the eye sees
+    Visible,
+    /// The same everywhere
+    Uniform,
+}
+
+impl LightArgs {
+    /// Refuses what cannot be combined.
+    pub(super) fn check(&self) -> Result<(), Conflict> {
+        match (self.spectral, self.wavelengths) {
+            (SpectralStrategy::Hero, Some(n)) if !HERO_WAVELENGTHS.contains(&n) => {
+                return Err(Conflict::new(
+                    format!("--wavelengths {n}: a path of --spectral hero carries 1, 4, 8 or 16 wavelengths"),
+                    "for a fixed set of any size use --spectral opow",
+                ));
+            }
+            _ => {}
+        }
+        let fixed_set = self.spectral == SpectralStrategy::Opow && self.wavelengths.is_some();
+        if self.wavelength_rule.is_some() && !fixed_set {
+            return Err(Conflict::new(
+                "--wavelength-rule places the wavelengths of a fixed set, and there is none",
+                "add --spectral opow --wavelengths N",
+            ));
+        }
+        if self.wavelength_pdf.is_some() && fixed_set {
+            return Err(Conflict::new(
+                "--wavelength-pdf with a fixed set: its wavelengths are drawn with equal probability",
+                "leave out --wavelengths to draw from the continuum",
+            ));
+        }
+        if self.wavelength_rule == Some(WavelengthRule::Endpoints) && self.wavelengths == Some(1) {
+            return Err(Conflict::new(
+                "--wavelength-rule endpoints with one wavelength: there are two end points",
+                "use --wavelengths 2 or more, or the rule `midpoint`",
+            ));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::render;
+    use super::*;
+
+    #[test]
+    fn hero_carries_what_is_compiled() {
+        for n in HERO_WAVELENGTHS {
+            assert!(render(&format!("--wavelengths {n}")).is_ok());
+        }
+        assert!(render("--wavelengths 5").expect_err("refused").contains("opow"));
+        assert!(render("--spectral opow --wavelengths 5").is_ok());
+        assert!(render("--wavelengths 0").is_err());
+    }
+
+    #[test]
+    fn rules_are_for_fixed_sets() {
+        assert!(render("--spectral opow --wavelengths 80 --wavelength-rule endpoints").is_ok());
+        assert!(render("--spectral opow --wavelength-rule midpoint").is_err());
+        assert!(render("--wavelength-rule midpoint").is_err());
+        assert!(render("--spectral opow --wavelengths 1 --wavelength-rule endpoints").is_err());
+        assert!(render("--spectral opow --wavelengths 80 --wavelength-pdf light").is_err());
+        assert!(render("--spectral opow --wavelength-pdf visible").is_ok());
+    }
+
+    #[test]
+    fn depth_may_be_unlimited() {
+        assert_eq!(render("--max-depth -1").expect("valid").light.max_depth, Some(-1));
+        assert!(render("--max-depth -2").is_err());
+        assert!(render("--integrator photons").expect_err("refused").contains("volpath"));
+    }
+}
