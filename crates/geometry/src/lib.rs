@@ -1,5 +1,23 @@
 //! Rays, transforms, shapes and the 8-wide BVH.
+//!
+//! Build an [`Accel`] from [`ShapeGroup`]s, ask it for the nearest [`Hit`] or for occlusion, and work out the
+//! [`SurfacePoint`] of a hit when it is needed. Rays leave surfaces by [`SurfacePoint::spawn`].
 
+pub mod accel;
+pub mod bounds;
+pub mod dvec;
+pub mod error;
+pub mod frame;
 pub mod ray;
+pub mod shape;
+pub mod surface;
+pub mod transform;
 
+pub use accel::{Accel, BuildOptions, BuildStats, Dispatch, Hit, InstanceDesc, NO_INSTANCE};
+pub use bounds::Bounds3;
+pub use error::GeometryError;
+pub use frame::Frame;
 pub use ray::Ray;
+pub use shape::{BilinearMesh, Disk, MASK_ALL, Shape, ShapeGroup, Sphere, TriangleMesh};
+pub use surface::{Rounding, ShapeSample, SurfacePoint, segment, spawn_origin};
+pub use transform::Transform;

@@ -1,0 +1,66 @@
+//! The lanes on AVX2 and FMA.
+
+use super::lanes::Lanes;
+use std::arch::x86_64::*;
+
+/// Proof that this processor has AVX, AVX2, FMA, BMI1, BMI2, LZCNT and POPCNT.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2(());
+
+impl Avx2 {
+    /// Asks the processor.
+    pub(crate) fn detect() -> Option<Self> {
+        let all = is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt");
+        all.then_some(Self(()))
+    }
+}
+
+/// Each body: SAFETY: a value of `Avx2` exists only where [`Avx2::detect`] found the instructions.
+macro_rules! lanes {
+    ($($name:ident($($arg:ident: $t:ty),*) -> $r:ty { $e:expr })+) => {
+        $(#[inline(always)]
+        fn $name(self, $($arg: $t),*) -> $r {
+            // SAFETY: the token proves the instruction set; loads are from references to whole arrays.
+            unsafe { $e }
+        })+
+    };
+}
+
+impl Lanes for Avx2 {
+    type F8 = __m256;
+    type F4 = __m128;
+
+    lanes! {
+        splat8(x: f32) -> __m256 { _mm256_set1_ps(x) }
+        load8(x: &[f32; 8]) -> __m256 { _mm256_loadu_ps(x.as_ptr()) }
+        store8(x: __m256) -> [f32; 8] { std::mem::transmute::<__m256, [f32; 8]>(x) }
+        sub8(a: __m256, b: __m256) -> __m256 { _mm256_sub_ps(a, b) }
+        mul8(a: __m256, b: __m256) -> __m256 { _mm256_mul_ps(a, b) }
+        min8(a: __m256, b: __m256) -> __m256 { _mm256_min_ps(a, b) }
+        max8(a: __m256, b: __m256) -> __m256 { _mm256_max_ps(a, b) }
+        le8(a: __m256, b: __m256) -> u32 { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
+        splat4(x: f32) -> __m128 { _mm_set1_ps(x) }
+        load4(x: &[f32; 4]) -> __m128 { _mm_loadu_ps(x.as_ptr()) }
+        store4(x: __m128) -> [f32; 4] { std::mem::transmute::<__m128, [f32; 4]>(x) }
+        add4(a: __m128, b: __m128) -> __m128 { _mm_add_ps(a, b) }
+        sub4(a: __m128, b: __m128) -> __m128 { _mm_sub_ps(a, b) }
+        mul4(a: __m128, b: __m128) -> __m128 { _mm_mul_ps(a, b) }
+        min4(a: __m128, b: __m128) -> __m128 { _mm_min_ps(a, b) }
+        max4(a: __m128, b: __m128) -> __m128 { _mm_max_ps(a, b) }
+        abs4(a: __m128) -> __m128 { _mm_andnot_ps(_mm_set1_ps(-0.0), a) }
+        fmadd4(a: __m128, b: __m128, c: __m128) -> __m128 { _mm_fmadd_ps(a, b, c) }
+        fmsub4(a: __m128, b: __m128, c: __m128) -> __m128 { _mm_fmsub_ps(a, b, c) }
+        le4(a: __m128, b: __m128) -> u32 { _mm_movemask_ps(_mm_cmple_ps(a, b)) as u32 }
+    }
+
+    #[inline(always)]
+    fn prefetch<T>(self, p: *const T) {
+        // SAFETY: a prefetch of any address is harmless.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(p.cast()) }
+    }
+}

@@ -1,0 +1,349 @@
+//! The acceleration structure: two levels of an 8-wide bounding volume hierarchy.
+//!
+//! The world level holds every shape group that belongs to no object, and the instances; an object's level holds its
+//! groups in the object's own space. A ray that meets an instance's box is transformed in `f64` and walks the
+//! object's level with the same parameter `t`.
+
+mod build;
+mod lanes;
+#[cfg(target_arch = "x86_64")]
+mod lanes_avx2;
+mod node;
+mod query;
+mod store;
+mod traverse;
+
+use crate::error::{GeometryError, Place};
+use crate::shape::triangle::cross_edges;
+use crate::shape::{LocalSurface, MASK_ALL, Shape, ShapeGroup};
+use crate::surface::Rounding;
+use crate::{Bounds3, Ray, SurfacePoint, Transform};
+use build::{Kind, Ref, widen};
+use node::Bvh;
+use tyndall_base::{Vec3, vec::vec2};
+
+/// What [`Hit::instance`] is outside every instance.
+pub const NO_INSTANCE: u32 = u32::MAX;
+
+/// Where a ray meets something; the geometry there is worked out by [`Accel::surface`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance in units of the ray's direction.
+    pub t: f32,
+    /// Index of the shape group as given to [`Accel::build`].
+    pub shape: u32,
+    /// Primitive within the group.
+    pub prim: u32,
+    /// Index of the instance, or [`NO_INSTANCE`].
+    pub instance: u32,
+    /// Triangle: barycentric weight of the second corner. Patch: u. Otherwise 0.
+    pub u: f32,
+    /// Triangle: barycentric weight of the third corner. Patch: v. Otherwise 0.
+    pub v: f32,
+}
+
+/// An object placed in the world.
+#[derive(Clone, Debug)]
+pub struct InstanceDesc {
+    /// Index of the object.
+    pub object: u32,
+    /// From the object's space to the world.
+    pub to_world: Transform,
+}
+
+impl InstanceDesc {
+    /// The transform at `time`. Instances rest for now; this is where motion enters.
+    #[inline]
+    fn to_world(&self, _time: f32) -> &Transform {
+        &self.to_world
+    }
+}
+
+/// Which instructions the traversal uses. All give the same bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Dispatch {
+    /// The fastest that this processor has.
+    #[default]
+    Detect,
+    /// Plain arrays, whatever the processor.
+    Portable,
+}
+
+/// How to build.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BuildOptions {
+    /// Which instructions the traversal will use.
+    pub dispatch: Dispatch,
+}
+
+/// What was built.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BuildStats {
+    /// Triangles and halves of flat patches in the tree.
+    pub triangles: usize,
+    /// Other primitives: spheres, disks, curved patches.
+    pub others: usize,
+    /// Triangles and patches left out because they have no area.
+    pub degenerate: usize,
+    /// Memory of nodes and triangle blocks \[bytes\].
+    pub bytes: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Isa {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(lanes_avx2::Avx2),
+}
+
+impl Isa {
+    fn choose(dispatch: Dispatch) -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let (Dispatch::Detect, Some(l)) = (dispatch, lanes_avx2::Avx2::detect()) {
+            return Self::Avx2(l);
+        }
+        let _ = dispatch;
+        Self::Portable
+    }
+}
+
+/// Everything that rays can meet.
+#[derive(Debug)]
+pub struct Accel {
+    groups: Vec<ShapeGroup>,
+    instances: Vec<InstanceDesc>,
+    objects: Vec<Bvh>,
+    world: Bvh,
+    isa: Isa,
+    stats: BuildStats,
+}
+
+impl Accel {
+    /// Builds the tree. `objects` lists the groups of each object; groups in no object are in the world. Hits name
+    /// groups and instances by their index here.
+    ///
+    /// # Errors
+    /// When an object or instance names something that does not exist, an instance's image is not finite, or there
+    /// are more primitives than 2^27 in one level.
+    pub fn build(
+        groups: Vec<ShapeGroup>,
+        objects: &[Vec<u32>],
+        instances: Vec<InstanceDesc>,
+        options: &BuildOptions,
+    ) -> Result<Self, GeometryError> {
+        let mut in_object = vec![false; groups.len()];
+        for &group in objects.iter().flatten() {
+            let slot = in_object.get_mut(group as usize);
+            *slot.ok_or(GeometryError::NoSuch {
+                what: "object's shape",
+                index: group,
+                count: groups.len(),
+            })? = true;
+        }
+        let mut stats = BuildStats::default();
+        let mut levels = Vec::with_capacity(objects.len());
+        for members in objects {
+            let mut refs = References { groups: &groups, refs: vec![], stats: &mut stats, in_object: true };
+            members.iter().for_each(|&g| refs.add_group(g));
+            let refs = refs.refs;
+            levels.push(level(&groups, refs, &mut stats)?);
+        }
+        let mut refs = References { groups: &groups, refs: vec![], stats: &mut stats, in_object: false };
+        (0..groups.len()).filter(|&g| !in_object[g]).for_each(|g| refs.add_group(g as u32));
+        for (i, instance) in instances.iter().enumerate() {
+            refs.add_instance(i, instance, &levels)?;
+        }
+        let refs = refs.refs;
+        let world = level(&groups, refs, &mut stats)?;
+        Ok(Self { groups, instances, objects: levels, world, isa: Isa::choose(options.dispatch), stats })
+    }
+
+    /// The nearest point along the ray that any group shows.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        query::nearest(self, ray, MASK_ALL, |_| true)
+    }
+
+    /// The nearest point on a group whose mask shares a bit with `mask`.
+    #[inline]
+    pub fn intersect_masked(&self, ray: &Ray, mask: u8) -> Option<Hit> {
+        query::nearest(self, ray, mask, |_| true)
+    }
+
+    /// The nearest point that `accept` lets pass. `accept` sees candidates in no particular order, each perhaps
+    /// farther than one seen before, so it must depend on the hit alone.
+    #[inline]
+    pub fn intersect_filtered(&self, ray: &Ray, mask: u8, accept: impl FnMut(&Hit) -> bool) -> Option<Hit> {
+        query::nearest(self, ray, mask, accept)
+    }
+
+    /// Whether anything lies on the ray.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        query::any(self, ray, MASK_ALL, |_| true)
+    }
+
+    /// Whether a group whose mask shares a bit with `mask` lies on the ray.
+    #[inline]
+    pub fn occluded_masked(&self, ray: &Ray, mask: u8) -> bool {
+        query::any(self, ray, mask, |_| true)
+    }
+
+    /// Whether anything that `accept` lets pass lies on the ray.
+    #[inline]
+    pub fn occluded_filtered(&self, ray: &Ray, mask: u8, accept: impl FnMut(&Hit) -> bool) -> bool {
+        query::any(self, ray, mask, accept)
+    }
+
+    /// The surface that `ray` meets at `hit`, worked out in `f64` from the primitive.
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let group = &self.groups[hit.shape as usize];
+        let to_world =
+            (hit.instance != NO_INSTANCE).then(|| self.instances[hit.instance as usize].to_world(ray.time));
+        let (o, d) = query::shape_ray(ray, to_world);
+        let local = group.local_surface(hit.prim, o, d);
+        finish(to_world.map_or(local, |t| place(&local, t)), ray.time)
+    }
+
+    /// Whether the ray meets the side that the surface's geometric normal points to.
+    #[inline]
+    pub fn is_front(ray: &Ray, surface: &SurfacePoint) -> bool {
+        ray.d.dot(surface.ng) < 0.0
+    }
+
+    /// The box around everything.
+    pub fn bounds(&self) -> Bounds3 {
+        self.world.bounds
+    }
+
+    /// A shape group.
+    pub fn group(&self, shape: u32) -> &ShapeGroup {
+        &self.groups[shape as usize]
+    }
+
+    /// All shape groups in the order given.
+    pub fn groups(&self) -> &[ShapeGroup] {
+        &self.groups
+    }
+
+    /// All instances in the order given.
+    pub fn instances(&self) -> &[InstanceDesc] {
+        &self.instances
+    }
+
+    /// What was built.
+    pub fn stats(&self) -> BuildStats {
+        self.stats
+    }
+}
+
+/// Rounds a world-space surface.
+fn finish(s: LocalSurface, time: f32) -> SurfacePoint {
+    let (p, rounding) = Rounding::of(s.p, s.noise);
+    let uv = vec2(s.uv[0] as f32, s.uv[1] as f32);
+    let (ng, ns) = (s.ng.round(), s.ns.round());
+    SurfacePoint { p, rounding, ng, ns, dpdu: s.dpdu.round(), dpdv: s.dpdv.round(), uv, time }
+}
+
+/// An object's surface in the world.
+fn place(s: &LocalSurface, to_world: &Transform) -> LocalSurface {
+    LocalSurface {
+        p: to_world.point64(s.p),
+        noise: to_world.point_noise(s.p) + to_world.spread(s.noise),
+        ng: to_world.normal64(s.ng).normalize(),
+        ns: to_world.normal64(s.ns).normalize(),
+        dpdu: to_world.vector64(s.dpdu),
+        dpdv: to_world.vector64(s.dpdv),
+        uv: s.uv,
+    }
+}
+
+/// Builds one level and counts it.
+fn level(groups: &[ShapeGroup], refs: Vec<Ref>, stats: &mut BuildStats) -> Result<Bvh, GeometryError> {
+    let corners = |r: &Ref| match &groups[r.shape as usize].shape {
+        Shape::Triangles(m) => m.corners(r.prim),
+        Shape::Bilinear(m) => half(m.corners(r.prim), r.kind == Kind::SecondHalf),
+        Shape::Sphere(_) | Shape::Disk(_) => unreachable!("only meshes are referred to as triangles"),
+    };
+    let bvh = build::build(refs, &corners, &|shape| groups[shape as usize].mask)?;
+    stats.bytes += size_of_val(&*bvh.nodes) + size_of_val(&*bvh.blocks);
+    Ok(bvh)
+}
+
+/// One triangle of a flat patch; in both the second and third corners carry u and v, or 1-u and 1-v.
+fn half([p00, p10, p01, p11]: [Vec3; 4], second: bool) -> [Vec3; 3] {
+    if second { [p11, p01, p10] } else { [p00, p10, p01] }
+}
+
+/// Collects one level's references.
+struct References<'a> {
+    groups: &'a [ShapeGroup],
+    refs: Vec<Ref>,
+    stats: &'a mut BuildStats,
+    in_object: bool,
+}
+
+impl References<'_> {
+    fn add_group(&mut self, shape: u32) {
+        let groups = self.groups;
+        let geometry = &groups[shape as usize].shape;
+        for prim in 0..geometry.prim_count() as u32 {
+            match geometry {
+                Shape::Triangles(m) => self.add_triangle(m.corners(prim), shape, prim, Kind::Triangle),
+                Shape::Bilinear(m) if m.patch(prim).is_flat() => {
+                    self.add_triangle(half(m.corners(prim), false), shape, prim, Kind::Triangle);
+                    self.add_triangle(half(m.corners(prim), true), shape, prim, Kind::SecondHalf);
+                }
+                _ => self.add_other(geometry.prim_bounds(prim), shape, prim),
+            }
+        }
+    }
+
+    fn add_triangle(&mut self, corners: [Vec3; 3], shape: u32, prim: u32, kind: Kind) {
+        if !(cross_edges(corners).length_squared() > 0.0) {
+            self.stats.degenerate += 1;
+            return;
+        }
+        self.stats.triangles += 1;
+        let bounds = self.widen(Bounds3::from_points(corners));
+        self.refs.push(Ref { bounds, shape, prim, kind });
+    }
+
+    fn add_other(&mut self, bounds: Bounds3, shape: u32, prim: u32) {
+        if bounds.extent().max_component() == 0.0 {
+            self.stats.degenerate += 1;
+            return;
+        }
+        self.stats.others += 1;
+        let bounds = self.widen(bounds);
+        self.refs.push(Ref { bounds, shape, prim, kind: Kind::Shape });
+    }
+
+    fn add_instance(
+        &mut self,
+        index: usize,
+        instance: &InstanceDesc,
+        objects: &[Bvh],
+    ) -> Result<(), GeometryError> {
+        let missing =
+            GeometryError::NoSuch { what: "instance's object", index: instance.object, count: objects.len() };
+        let object = objects.get(instance.object as usize).ok_or(missing)?;
+        if object.bounds.is_empty() {
+            return Ok(());
+        }
+        let bounds = self.widen(instance.to_world.bounds(object.bounds));
+        if let Some(value) = bounds.corners().iter().flat_map(|c| c.to_array()).find(|x| !x.is_finite()) {
+            let place = Place { group: None, element: "instance", index };
+            return Err(GeometryError::BadCoordinate { place, value });
+        }
+        self.refs.push(Ref { bounds, shape: index as u32, prim: 0, kind: Kind::Instance });
+        Ok(())
+    }
+
+    /// In objects the ray's origin was rounded to the grid of the object's coordinates.
+    fn widen(&self, b: Bounds3) -> Bounds3 {
+        let farthest = b.lo.abs().max(b.hi.abs()).max_component();
+        widen(b, if self.in_object { 0.25 * traverse::SLACK * farthest } else { 0.0 })
+    }
+}

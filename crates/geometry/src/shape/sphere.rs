@@ -1,0 +1,170 @@
+//! Spheres and parts of them, with pbrt's parameters.
+//!
+//! In object space `x = r sin(theta) cos(phi)`, `z = r cos(theta)`; `u = phi / phi_max`, `v` runs from `z_min` to
+//! `z_max` with theta. Intersections are solved in `f64` with the discriminant `r^2 - |o - (o.d/d.d) d|^2`, which does
+//! not cancel for distant or small spheres (Haines, Guenther & Akenine-Moeller 2019, "Precision improvements for
+//! ray/sphere intersection").
+
+use super::{LocalSurface, NOISE, PrimHit, ShapeGroup, any_tangents, check, quadratic_half};
+use crate::dvec::{DVec3, dvec3};
+use crate::{Bounds3, GeometryError, Transform};
+use std::f64::consts::PI;
+use tyndall_base::math::f64::{acos, atan2};
+
+/// A sphere about the origin of its own space, cut at two heights and an angle.
+#[derive(Clone, Debug)]
+pub struct Sphere {
+    pub(crate) to_world: Transform,
+    pub(crate) radius: f64,
+    pub(crate) z_min: f64,
+    pub(crate) z_max: f64,
+    pub(crate) phi_max: f64,
+    theta_z_min: f64,
+    theta_z_max: f64,
+}
+
+impl Sphere {
+    /// `radius` \[m\]; the part with `z_min <= z <= z_max` (in either order, clamped to the sphere) and azimuth up to
+    /// `phi_max` degrees.
+    ///
+    /// # Errors
+    /// When the radius is not positive or a parameter is not finite.
+    pub fn new(
+        to_world: Transform,
+        radius: f64,
+        z_min: f64,
+        z_max: f64,
+        phi_max: f64,
+    ) -> Result<Self, GeometryError> {
+        check("sphere radius", "a finite length > 0", radius, radius > 0.0)?;
+        check("sphere zmin", "a finite height", z_min, true)?;
+        check("sphere zmax", "a finite height", z_max, true)?;
+        check("sphere phimax", "degrees in (0, 360]", phi_max, phi_max > 0.0)?;
+        let (z_min, z_max) =
+            (z_min.min(z_max).clamp(-radius, radius), z_min.max(z_max).clamp(-radius, radius));
+        check("sphere zmin, zmax", "zmin < zmax within the sphere", z_max - z_min, z_max > z_min)?;
+        let phi_max = phi_max.min(360.0) * (PI / 180.0);
+        let theta = |z: f64| acos((z / radius).clamp(-1.0, 1.0));
+        let (theta_z_min, theta_z_max) = (theta(z_min), theta(z_max));
+        Ok(Self { to_world, radius, z_min, z_max, phi_max, theta_z_min, theta_z_max })
+    }
+
+    /// The whole sphere about `centre`.
+    ///
+    /// # Errors
+    /// When the radius is not positive or a parameter is not finite.
+    pub fn whole(centre: [f64; 3], radius: f64) -> Result<Self, GeometryError> {
+        for x in centre {
+            check("sphere centre", "a finite position", x, true)?;
+        }
+        Self::new(Transform::translate(centre[0], centre[1], centre[2]), radius, -radius, radius, 360.0)
+    }
+
+    /// True when nothing is cut off.
+    pub fn is_whole(&self) -> bool {
+        self.z_min <= -self.radius && self.z_max >= self.radius && self.phi_max >= 2.0 * PI
+    }
+
+    /// Radius in the world when the transform is a similarity, so that the sphere is one there too.
+    pub(crate) fn world_radius(&self) -> Option<f64> {
+        let axes = [dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), dvec3(0.0, 0.0, 1.0)];
+        let [x, y, z] = axes.map(|a| self.to_world.vector64(a));
+        let s = x.length_squared();
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-6 * s;
+        let similar = near(y.length_squared(), s) && near(z.length_squared(), s);
+        let orthogonal = near(x.dot(y), 0.0) && near(y.dot(z), 0.0) && near(z.dot(x), 0.0);
+        (similar && orthogonal).then(|| self.radius * s.sqrt())
+    }
+
+    /// The box around the sphere or, when cut, around the part's box.
+    pub fn prim_bounds(&self, _prim: u32) -> Bounds3 {
+        let m = self.to_world.matrix();
+        let r = self.radius;
+        // the affine image of the slab box: half-extents per world axis
+        let middle = 0.5 * (self.z_min + self.z_max);
+        let half = 0.5 * (self.z_max - self.z_min);
+        let centre = self.to_world.point64(dvec3(0.0, 0.0, middle));
+        let reach = |k: usize| {
+            if self.is_whole() {
+                r * dvec3(m[k][0], m[k][1], m[k][2]).length()
+            } else {
+                r * dvec3(m[k][0], m[k][1], 0.0).length() + half * m[k][2].abs()
+            }
+        };
+        let e = dvec3(reach(0), reach(1), reach(2));
+        Bounds3::new((centre - e).round(), (centre + e).round()).padded(tyndall_base::Vec3::ZERO)
+    }
+
+    /// The nearest point along `o + t d` (world), `0 < t <= t_max`.
+    pub(crate) fn intersect(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<PrimHit> {
+        let to_object = self.to_world.inverse();
+        self.intersect_local(to_object.point64(o), to_object.vector64(d), t_max)
+    }
+
+    fn intersect_local(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<PrimHit> {
+        let r = self.radius;
+        let (a, h) = (d.length_squared(), o.dot(d));
+        let nearest = o - d * (h / a);
+        let discriminant = a * (r * r - nearest.length_squared());
+        let length = o.length();
+        let roots = quadratic_half(a, h, discriminant, (length - r) * (length + r))?;
+        let whole = self.is_whole();
+        roots
+            .into_iter()
+            .find(|&t| t > 0.0 && t <= t_max && (whole || self.keeps(o + d * t)))
+            .map(|t| PrimHit { t, u: 0.0, v: 0.0 })
+    }
+
+    /// Whether a point of the sphere belongs to the part.
+    fn keeps(&self, p: DVec3) -> bool {
+        let low = self.z_min > -self.radius && p.z < self.z_min;
+        let high = self.z_max < self.radius && p.z > self.z_max;
+        !low && !high && azimuth(p) <= self.phi_max
+    }
+
+    pub(crate) fn local_surface(&self, o: DVec3, d: DVec3, group: &ShapeGroup) -> LocalSurface {
+        let to_object = self.to_world.inverse();
+        let (o, d) = (to_object.point64(o), to_object.vector64(d));
+        // the traversal found a hit; a ray that the rounding of its record now takes past ends at its closest point
+        let t =
+            self.intersect_local(o, d, f64::INFINITY).map_or_else(|| -o.dot(d) / d.length_squared(), |h| h.t);
+        self.local_at(o + d * t, group)
+    }
+
+    /// The surface at the point of the sphere nearest to `q` (object space), in world space.
+    pub(crate) fn local_at(&self, q: DVec3, group: &ShapeGroup) -> LocalSurface {
+        let q = q * (self.radius / q.length());
+        let phi = azimuth(q);
+        let cos_theta = (q.z / self.radius).clamp(-1.0, 1.0);
+        let span = self.theta_z_max - self.theta_z_min;
+        let uv = [phi / self.phi_max, (acos(cos_theta) - self.theta_z_min) / span];
+        let across = (q.x * q.x + q.y * q.y).sqrt();
+        let n = q * (1.0 / self.radius);
+        let (dpdu, dpdv) = if across > 0.0 {
+            let (c, s) = (q.x / across, q.y / across);
+            (dvec3(-q.y, q.x, 0.0) * self.phi_max, dvec3(q.z * c, q.z * s, -across) * span)
+        } else {
+            any_tangents(n)
+        };
+        let t = &self.to_world;
+        let n = t.normal64(n).normalize();
+        let n = if group.flips_normal() { -n } else { n };
+        let rounding = dvec3(1.0, 1.0, 1.0) * (NOISE * self.radius);
+        let noise = t.point_noise(q) + t.spread(rounding);
+        LocalSurface {
+            p: t.point64(q),
+            noise,
+            ng: n,
+            ns: n,
+            dpdu: t.vector64(dpdu),
+            dpdv: t.vector64(dpdv),
+            uv,
+        }
+    }
+}
+
+/// Azimuth of `p` in [0, 2 pi).
+pub(crate) fn azimuth(p: DVec3) -> f64 {
+    let phi = atan2(p.y, p.x);
+    if phi < 0.0 { phi + 2.0 * PI } else { phi }
+}
