@@ -1,12 +1,14 @@
 //! What was wrong with samples, and what was done about it. Nothing is dropped in silence.
 
+use serde::{Deserialize, Serialize};
+
 use crate::fixed;
 
 /// How many bad samples are remembered one by one.
 pub const REMEMBERED: usize = 16;
 
 /// A sample that was dropped, with all that is needed to replay it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct BadSample {
     /// Index of the sample in its pixel.
     pub sample: u32,
@@ -19,7 +21,7 @@ pub struct BadSample {
 }
 
 /// Counts of samples that were dropped or clamped.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Diagnostics {
     /// Samples dropped because a channel was infinite or not a number.
     pub non_finite: u64,
@@ -29,6 +31,8 @@ pub struct Diagnostics {
     pub clamped: u64,
     /// Sums of squares that overflowed: errors of such pixels are meaningless.
     pub overflows: u64,
+    /// Fixed point, as text in files: few formats hold integers of 128 bits.
+    #[serde(with = "text")]
     pub(crate) removed: i128,
     pub(crate) first: Vec<BadSample>,
 }
@@ -69,5 +73,17 @@ impl Diagnostics {
         let mut first = std::mem::take(&mut self.first);
         first.clear();
         *self = Self { first, ..Self::default() };
+    }
+}
+
+mod text {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    pub fn serialize<S: Serializer>(v: &i128, s: S) -> Result<S::Ok, S::Error> {
+        s.serialize_str(&v.to_string())
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<i128, D::Error> {
+        String::deserialize(d)?.parse().map_err(D::Error::custom)
     }
 }

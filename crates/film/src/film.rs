@@ -74,6 +74,37 @@ impl Film {
         self.spec == other.spec && self.planes == other.planes && self.diagnostics == other.diagnostics
     }
 
+    /// The film's sums as named planes of little-endian bytes, for files.
+    pub fn planes(&self) -> [(&'static str, &[u8]); 6] {
+        let p = &self.planes;
+        [
+            ("sums", bytemuck::cast_slice(&p.sums)),
+            ("squares", bytemuck::cast_slice(&p.squares)),
+            ("cross", bytemuck::cast_slice(&p.cross)),
+            ("counts", bytemuck::cast_slice(&p.counts)),
+            ("weights", bytemuck::cast_slice(&p.weights)),
+            ("largest", bytemuck::cast_slice(&p.largest)),
+        ]
+    }
+
+    /// The same planes to be filled by a reader.
+    pub fn planes_mut(&mut self) -> [(&'static str, &mut [u8]); 6] {
+        let p = &mut self.planes;
+        [
+            ("sums", bytemuck::cast_slice_mut(&mut p.sums)),
+            ("squares", bytemuck::cast_slice_mut(&mut p.squares)),
+            ("cross", bytemuck::cast_slice_mut(&mut p.cross)),
+            ("counts", bytemuck::cast_slice_mut(&mut p.counts)),
+            ("weights", bytemuck::cast_slice_mut(&mut p.weights)),
+            ("largest", bytemuck::cast_slice_mut(&mut p.largest)),
+        ]
+    }
+
+    /// Replaces the counts of dropped and clamped samples by those of a file.
+    pub fn set_diagnostics(&mut self, diagnostics: Diagnostics) {
+        self.diagnostics = diagnostics;
+    }
+
     fn add(&mut self, planes: &Planes, diagnostics: &Diagnostics) {
         self.diagnostics.merge(diagnostics);
         self.diagnostics.overflows += self.planes.merge(planes);

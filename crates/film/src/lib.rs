@@ -23,6 +23,9 @@
 //! ```
 #![forbid(unsafe_code)]
 
+#[cfg(target_endian = "big")]
+compile_error!("films are stored as little-endian planes without conversion");
+
 pub mod channels;
 pub mod develop;
 pub mod diagnostics;

@@ -123,17 +123,20 @@ impl Patch {
         let (with, without) = values.split_at(l.with_errors);
         let sums = &mut self.planes.sums[pixel * l.sums..][..l.sums];
         let (errors, means) = sums.split_at_mut(l.slots * l.with_errors);
-        add_all(&mut errors[slot * l.with_errors..][..l.with_errors], with, &sign);
+        let errors = &mut errors[slot * l.with_errors..][..l.with_errors];
+        // the usual three channels get loops of known length
+        match (errors.first_chunk_mut::<3>(), with.first_chunk::<3>()) {
+            (Some(errors), Some(with)) if l.with_errors == 3 => add_all(errors, with, &sign),
+            _ => add_all(errors, with, &sign),
+        }
         add_all(means, without, &sign);
         if l.squares != 0 {
             let squares = &mut self.planes.squares[pixel * l.squares..][..l.squares];
             let mut overflow = fixed::add_square(&mut squares[l.with_errors], luma * luma);
-            for (sum, &v) in squares.iter_mut().zip(with) {
-                // bands that a path does not touch are zero: skip them
-                if v != 0.0 {
-                    overflow |= fixed::add_square(sum, f64::from(v) * f64::from(v));
-                }
-            }
+            overflow |= match (squares.first_chunk_mut::<3>(), with.first_chunk::<3>()) {
+                (Some(squares), Some(with)) if l.with_errors == 3 => add_squares(squares, with),
+                _ => add_squares(squares, with),
+            };
             self.diagnostics.overflows += u64::from(overflow);
         }
     }
@@ -188,8 +191,20 @@ fn luminance(weights: &[f32], values: &[f32]) -> f64 {
 #[inline(always)]
 fn add_all(sums: &mut [i128], values: &[f32], sign: &impl Fn(f32) -> f32) {
     for (sum, &v) in sums.iter_mut().zip(values) {
+        // most bands of a sample are zero
         if v != 0.0 {
             *sum += fixed::to_fixed(sign(v));
         }
     }
+}
+
+#[inline(always)]
+fn add_squares(sums: &mut [fixed::Square], values: &[f32]) -> bool {
+    let mut overflow = false;
+    for (sum, &v) in sums.iter_mut().zip(values) {
+        if v != 0.0 {
+            overflow |= fixed::add_square(sum, f64::from(v) * f64::from(v));
+        }
+    }
+    overflow
 }

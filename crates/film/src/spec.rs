@@ -1,9 +1,11 @@
 //! What a film holds: window, channels, error mode.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{FilmError, PixelBounds};
 
 /// How standard errors are estimated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ErrorMode {
     /// Sums of squares of all samples of a pixel. Samples of one scrambled net are not independent: the plain variance
     /// overstates the error of their mean, so this is an upper estimate.
@@ -39,7 +41,7 @@ impl ErrorMode {
 }
 
 /// What is kept of the channels of a group.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Statistics {
     /// Mean and standard error.
     Errors,
@@ -48,7 +50,7 @@ pub enum Statistics {
 }
 
 /// Weights that samples may carry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Weights {
     /// Every sample has weight 1 (filters without negative lobes).
     Unit,
@@ -57,7 +59,7 @@ pub enum Weights {
 }
 
 /// Channels that belong together: the image itself, one order of scattering, an AOV.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ChannelGroup {
     /// Name of the layer; empty for the image itself.
     pub name: String,
@@ -70,7 +72,7 @@ pub struct ChannelGroup {
 }
 
 /// Description of a film.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FilmSpec {
     /// Size of the whole image \[pixels\].
     pub resolution: [u32; 2],

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::{Guide, Patch};
 
 /// A rectangle of pixels, half open: `x0 <= x < x1`, `y0 <= y < y1`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct PixelBounds {
     /// First column.
     pub x0: u32,

@@ -26,7 +26,7 @@ impl Bands {
         if !(2..=4097).contains(&edges.len()) {
             return refuse(format!("expected 2 to 4097 band edges, got {}", edges.len()));
         }
-        if let Some(w) = edges.windows(2).find(|w| !(w[0] < w[1])) {
+        if let Some(w) = edges.windows(2).find(|w| w[0] >= w[1] || w[0].is_nan() || w[1].is_nan()) {
             return refuse(format!("band edges must ascend, got {} nm and then {} nm", w[0], w[1]));
         }
         let (first, last) = (edges[0], edges[edges.len() - 1]);

@@ -48,7 +48,7 @@ impl Sensor {
         if !(self.imaging_ratio > 0.0 && self.imaging_ratio.is_finite()) {
             return Err(refuse(&format!("expected an imaging ratio > 0, got {}", self.imaging_ratio)));
         }
-        if !(self.range.max - self.range.min <= 10_000.0) {
+        if self.range.width() > 10_000.0 {
             return Err(refuse(&format!("a sensor's range is at most 10000 nm, got {}", self.range)));
         }
         let xyz_from_rgb =

@@ -74,7 +74,7 @@ fn signed_weights_reproduce_the_moments_of_the_filter() {
 fn shapes_are_those_of_the_literature() {
     let ratio = |f: &PixelFilter, x: f32| f.x.eval(x) / f.x.eval(0.0);
     let mitchell = PixelFilter::mitchell([2.0, 2.0], 1.0 / 3.0, 1.0 / 3.0).unwrap();
-    // B-spline third: f(0) = 8/9, f(1) = 1/18, f(1.5) = -5/144... of the unstretched cubic
+    // f(0) = 8/9 and f(1) = 1/18 of the unstretched cubic
     assert!((ratio(&mitchell, 1.0) - 1.0 / 16.0).abs() < 1e-4);
     let sinc = PixelFilter::sinc([4.0, 4.0], 3.0).unwrap();
     assert!(ratio(&sinc, 1.0).abs() < 1e-4 && ratio(&sinc, 3.0).abs() < 1e-4);

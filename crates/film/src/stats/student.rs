@@ -36,7 +36,7 @@ fn central(x: f64, dof: u32) -> f64 {
     let root = x / f64::from(dof).sqrt();
     let hypotenuse = (1.0 + root * root).sqrt();
     let (sin, cos) = (root / hypotenuse, 1.0 / hypotenuse);
-    if dof % 2 == 0 {
+    if dof.is_multiple_of(2) {
         return sin * series(cos * cos, 1, dof);
     }
     let arc = math::atan(root);

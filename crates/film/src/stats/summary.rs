@@ -3,7 +3,7 @@
 use crate::ErrorMode;
 
 /// Summary of the relative standard errors of Y: `SE_Y / max(Y, a hundredth of the median Y)` over the pixels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ErrorSummary {
     /// How errors were estimated.
     pub mode: ErrorMode,
