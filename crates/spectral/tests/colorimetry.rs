@@ -129,8 +129,11 @@ fn fixed_sets_have_the_predicted_colour_error() {
                 let count = row[2].parse().unwrap();
                 let got = rms(&patch_colours(&light, count, rule), &reference);
                 let known: f64 = row[3].parse().unwrap();
-                // f32 wavelengths (3e-5 nm apart) on the steep flanks of FL11's lines
-                assert!((got - known).abs() < 1e-5, "{name}, {word}, {count}: {got} against {known}");
+                // six decimals, and under FL11 a white that differs by 3.5e-5 between the two computations
+                assert!(
+                    (got - known).abs() < 1e-6 + 1e-4 * known,
+                    "{name}, {word}, {count}: {got} against {known}"
+                );
             }
         }
     }
