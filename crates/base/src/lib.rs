@@ -5,6 +5,7 @@
 //! portable build and a build for another processor give the same bits.
 #![forbid(unsafe_code)]
 
+pub mod distribution;
 pub mod hash;
 pub mod math;
 pub mod rng;
