@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use tyndall_base::{hash, math, rng::Pcg32, sobol, warp};
+use tyndall_base::{exact::ExactSum, hash, math, rng::Pcg32, sobol, warp};
 
 /// Best of many runs of `f` over a thousand inputs, in nanoseconds a call.
 fn time<T: Copy, R: Copy>(name: &str, input: impl Fn(u32) -> T, f: impl Fn(T) -> R) {
@@ -51,6 +51,11 @@ fn main() {
     time("Pcg32, keyed, one number", u64::from, |i| Pcg32::from_key(i).next_f32());
     time("sobol_1d", |i| (i, 7), |(i, seed)| black_box(sobol::sobol_1d(i, seed)));
     time("sobol_2d", |i| (i, 7), |(i, seed)| black_box(sobol::sobol_2d(i, seed)));
+    time("ExactSum::add_f32", unit, |x| {
+        let mut sum = ExactSum::from_bits(1);
+        sum.add_f32(x);
+        sum
+    });
     let of = |i| (sobol::SobolIndex::new(i), i);
     time("SobolIndex::d2", of, |(i, seed)| black_box(i.d2(seed)));
     time("sobol_4d", |i| (i, 7), |(i, seed)| black_box(sobol::sobol_4d(i, seed)));

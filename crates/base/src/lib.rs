@@ -6,8 +6,11 @@
 #![forbid(unsafe_code)]
 
 pub mod distribution;
+pub mod err;
+pub mod exact;
 pub mod hash;
 pub mod math;
+pub mod quadrature;
 pub mod rng;
 pub mod sobol;
 pub mod vec;
