@@ -81,6 +81,11 @@ impl Diagnostics {
         });
     }
 
+    /// Appends a warning about the scene as a whole.
+    pub fn warn_without_place(&self, message: impl Into<String>) {
+        self.push(Diagnostic { severity: Severity::Warning, place: None, message: message.into(), hint: None });
+    }
+
     /// Appends all of `other`, in its order.
     pub fn extend(&self, other: Diagnostics) {
         let other = other.items.into_inner().unwrap_or_else(PoisonError::into_inner);

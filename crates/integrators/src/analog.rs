@@ -1,0 +1,112 @@
+//! `analog`: the independent judge. A photon's history run backwards, one wavelength, no weights but emission.
+//!
+//! Collisions, absorption and reflection are events with their own probabilities; light is met only by chance.
+//! It is slow and simple on purpose, and shares no estimator with `volpath`.
+
+use crate::observer::{Event, PathObserver, Vertex};
+use tyndall_base::{Vec3, warp};
+use tyndall_geometry::Ray;
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::{MediumId, Scene, sampler::PathSampler};
+
+/// Radiance along `ray` at the hero's wavelength; other lanes are zero.
+pub fn li<const N: usize>(
+    scene: &Scene,
+    max_depth: u32,
+    mut ray: Ray,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+    seen: &mut impl PathObserver<N>,
+) -> Spectrum<N> {
+    let mut l = Spectrum::ZERO;
+    let mut medium = scene.camera_medium;
+    let mut depth = 0;
+    let mut radiance_scale = 1.0; // radiance over n^2 is what refraction conserves
+    let hero = |value: f32| Spectrum::from_fn(|k| if k == 0 { value } else { 0.0 });
+    loop {
+        let hit = scene.intersect(&ray);
+        let t_hit = hit.as_ref().map_or(f32::INFINITY, |h| h.t);
+
+        // a collision in the medium, if it comes before the surface
+        if let Some(m) = scene.medium(medium) {
+            let m = m.homogeneous(w);
+            let (sigma_a, sigma_s) = (m.sigma_a[0], m.sigma_s[0]);
+            let t = warp::sample_exponential(sampler.next_1d(), sigma_a + sigma_s);
+            if t < t_hit {
+                let p = ray.at(t);
+                watch(seen, Event::Medium, p, t, depth, medium);
+                if sampler.next_1d() * (sigma_a + sigma_s) < sigma_a {
+                    // absorbed where the medium emits le
+                    let value = hero(radiance_scale * m.le[0]);
+                    seen.contribution(depth, &value);
+                    return l + value;
+                }
+                if depth >= max_depth {
+                    break;
+                }
+                depth += 1;
+                let u = sampler.next_2d();
+                ray = Ray::new(p, m.phase.sample(-ray.d, [u.x, u.y], w).wi);
+                continue;
+            }
+        }
+
+        // light from infinity
+        let Some(hit) = hit else {
+            let sky: f32 =
+                scene.lights.infinite().iter().map(|&id| scene.lights.get(id).le_infinite(ray.d, w)[0]).sum();
+            let value = hero(radiance_scale * sky);
+            seen.contribution(depth, &value);
+            return l + value;
+        };
+
+        // a surface: its own light, then the event
+        let isect = scene.interaction(&ray, &hit);
+        let s = &isect.surface;
+        if let Some(id) = isect.light {
+            let le = scene.lights.get(id).radiance_at(s.ng, [s.uv.x, s.uv.y], -ray.d, w);
+            let value = hero(radiance_scale * le[0]);
+            seen.contribution(depth, &value);
+            l += value;
+        }
+        let wi = if isect.binding.material.is_interface() {
+            watch(seen, Event::Boundary, s.p, hit.t, depth, medium);
+            ray.d
+        } else {
+            watch(seen, Event::Surface, s.p, hit.t, depth, medium);
+            if depth >= max_depth {
+                break;
+            }
+            depth += 1;
+            let (frame, bsdf) = scene.materials[isect.binding.material.index()].shade(s, w);
+            let uc = sampler.next_1d();
+            let u = sampler.next_2d();
+            let Some(b) = bsdf.sample(frame.to_local(-ray.d), uc, [u.x, u.y]) else { break };
+            // survival with the probability of the event; the factor of refraction is no probability
+            let scale = 1.0 / (b.eta * b.eta);
+            let survival = b.f[0] * b.wi.z.abs() / (b.pdf[0] * scale);
+            radiance_scale *= scale * survival.max(1.0);
+            if sampler.next_1d() >= survival {
+                break;
+            }
+            frame.from_local(b.wi)
+        };
+        medium = isect.medium_towards(wi, medium);
+        ray = Ray::new(s.origin(wi), wi);
+    }
+    l
+}
+
+fn watch<const N: usize, O: PathObserver<N>>(
+    seen: &mut O,
+    event: Event,
+    p: Vec3,
+    distance: f32,
+    depth: u32,
+    medium: MediumId,
+) {
+    if O::WANTS_VERTICES {
+        let (albedo, throughput) = (Spectrum::ONE, Spectrum::ONE);
+        seen.vertex(&Vertex { event, p, n: Vec3::ZERO, distance, depth, medium, albedo, throughput });
+    }
+}

@@ -1,0 +1,76 @@
+//! Light sampling at a vertex, combined with chance hits and with equiangular sampling.
+
+use crate::{
+    equiangular::Segment,
+    settings::Settings,
+    shadow::{End, shadow},
+    weight::{PathWeight, divide},
+};
+use tyndall_base::Vec3;
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::{LightId, MediumId, Scene, light::Target, sampler::PathSampler};
+
+/// The equiangular technique that could have made a medium vertex, kept until the path scatters again.
+#[derive(Clone, Copy, Debug)]
+pub struct Rival {
+    /// The segment on which the vertex lies.
+    pub segment: Segment,
+    /// Distance of the vertex on it.
+    pub t: f32,
+}
+
+impl Rival {
+    /// Density of the technique at the vertex and `target`; see [`Segment::density`].
+    #[inline]
+    pub fn density(&self, scene: &Scene, id: LightId, target: &Target) -> f32 {
+        self.segment.density(scene, id, self.t, target)
+    }
+}
+
+/// A vertex that scatters towards lights.
+pub struct Scatterer<S, F> {
+    /// The point \[m\], from which densities are measured.
+    pub p: Vec3,
+    /// Where a shadow ray along a direction starts and in which medium.
+    pub spawn: S,
+    /// `(f |cos|, density)` towards a direction, per lane.
+    pub eval: F,
+    /// Equiangular technique of a medium vertex.
+    pub rival: Option<Rival>,
+}
+
+/// One light sample at `vertex`: light per lane.
+#[inline]
+pub fn sample<const N: usize, S, F>(
+    scene: &Scene,
+    settings: &Settings,
+    vertex: &Scatterer<S, F>,
+    weight: &PathWeight<N>,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+) -> Spectrum<N>
+where
+    S: Fn(Vec3) -> (Vec3, MediumId),
+    F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
+{
+    let u_light = sampler.next_1d();
+    let u = sampler.next_2d();
+    let Some(selected) = scene.lights.select(u_light) else { return Spectrum::ZERO };
+    let light = scene.lights.get(selected.id);
+    let Some(sample) = light.sample_li(&scene.accel, vertex.p, [u.x, u.y], w) else { return Spectrum::ZERO };
+    let (f, pdf) = (vertex.eval)(sample.wi);
+    if f.is_zero() {
+        return Spectrum::ZERO;
+    }
+    let (o, medium) = (vertex.spawn)(sample.wi);
+    let end = sample.target.map_or(End::Infinity(sample.wi), End::At);
+    let Some(s) = shadow(scene, settings, o, medium, end, w, sampler) else { return Spectrum::ZERO };
+    // densities of the techniques that make this path, lane by lane
+    let by_light = s.r_l * (selected.pmf * sample.pdf);
+    let by_chance = if sample.delta { Spectrum::ZERO } else { pdf * s.r_u };
+    let mut r = weight.r_u * (by_light + by_chance);
+    if let (Some(rival), Some(target)) = (&vertex.rival, &sample.target) {
+        r += weight.r_e * s.r_l * rival.density(scene, selected.id, target);
+    }
+    divide(weight.beta * f * s.t * sample.l, r)
+}

@@ -1,0 +1,310 @@
+//! Distances drawn towards a light (Kulla & Fajardo 2012, *Importance sampling techniques for path tracing in
+//! participating media*), limited to the lit part of a spotlight's cone.
+//!
+//! With D the distance of the light point from the ray and s the ray parameter of the nearest point,
+//! `t = s + D tan((1 - u) a + u b)`, `p(t) = D / ((b - a)(D^2 + (t - s)^2))`.
+//!
+//! The sample shares its path space with two others, which the balance heuristic weighs in every lane: a free flight
+//! followed by light sampling, and a free flight followed by a scattering that happens to meet the light.
+
+use crate::{
+    medium::Inside,
+    observer::PathObserver,
+    settings::{Equiangular, Settings},
+    shadow::{End, shadow},
+    weight::{PathWeight, divide},
+};
+use tyndall_base::{Vec3, warp};
+use tyndall_geometry::Ray;
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::{
+    LightId, MediumId, Scene,
+    light::{Light, PositionSample, SpotLight, Target},
+    sampler::PathSampler,
+};
+
+/// Thickness between ray and light up to which a segment gets a sample.
+const THIN: f32 = 1.0;
+/// Albedo below which it gets one at any thickness.
+const DARK: f32 = 0.7;
+/// Thickness beyond which even a dark medium gets none.
+const THICK: f32 = 4.0;
+
+/// A segment of a ray in a medium, as the technique sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment {
+    /// Start of the segment \[m\].
+    pub o: Vec3,
+    /// Unit direction.
+    pub d: Vec3,
+    /// Length, possibly infinite.
+    pub t_max: f32,
+    /// Mean extinction over the lanes \[1/m\].
+    sigma_t: f32,
+    /// Mean albedo over the lanes.
+    albedo: f32,
+    mode: Equiangular,
+    clip: bool,
+}
+
+impl Segment {
+    /// The segment `[0, t_max]` of `ray` in a medium; `None` where the technique is off or has no light.
+    #[inline]
+    pub fn new<const N: usize>(
+        scene: &Scene,
+        settings: &Settings,
+        ray: &Ray,
+        t_max: f32,
+        inside: &Inside<'_, N>,
+    ) -> Option<Self> {
+        let mode = settings.equiangular;
+        if mode == Equiangular::Off || !settings.light_sampling || !scene.lights.has_local() {
+            return None;
+        }
+        let (sigma_t, sigma_s) = (inside.sigma_t.mean(), inside.sigma_s.mean());
+        if sigma_s <= 0.0 {
+            return None;
+        }
+        let albedo = sigma_s / sigma_t;
+        Some(Self { o: ray.o, d: ray.d, t_max, sigma_t, albedo, mode, clip: settings.cone_clipping })
+    }
+
+    /// The part of the segment that `light` can light, when seen from the point `y`; `None` when the technique
+    /// leaves this pair alone. A function of the segment and `y` only, so that all techniques agree on it.
+    #[inline]
+    fn lit(&self, light: &Light, y: Vec3) -> Option<Lit> {
+        let s = (y - self.o).dot(self.d);
+        let distance = (self.o + self.d * s - y).length();
+        if distance <= 0.0 || !self.pays(light, distance) {
+            return None;
+        }
+        let (t0, t1) = match light {
+            Light::Spot(spot) if self.clip => cone_interval(spot, self.o, self.d, self.t_max)?,
+            _ => (0.0, self.t_max),
+        };
+        (t1 > t0).then_some(Lit { s, distance, t0, t1 })
+    }
+
+    #[inline(always)]
+    fn pays(&self, light: &Light, distance: f32) -> bool {
+        let tau = self.sigma_t * distance;
+        match self.mode {
+            Equiangular::Off => false,
+            Equiangular::Always => true,
+            // a beam is narrow: a flight seldom ends in it
+            Equiangular::Auto if matches!(light, Light::Spot(_)) => true,
+            Equiangular::Auto => tau < THIN || (self.albedo < DARK && tau < THICK),
+        }
+    }
+
+    /// Density of the whole technique at the scattering point at distance `t` and the light point `target`: choice
+    /// of the light, of its point (in solid angle as seen from the scattering point) and of the distance.
+    #[inline]
+    pub fn density(&self, scene: &Scene, id: LightId, t: f32, target: &Target) -> f32 {
+        let light = scene.lights.get(id);
+        let Some(lit) = self.lit(light, target.p) else { return 0.0 };
+        if t < lit.t0 || t > lit.t1 {
+            return 0.0;
+        }
+        let x = self.o + self.d * t;
+        let solid = target.pdf_area / jacobian(light, x, target);
+        let pdf = scene.lights.pmf_local(id) * solid * lit.pdf(t);
+        if pdf.is_finite() { pdf } else { 0.0 }
+    }
+}
+
+/// The lit part of a segment and where it is nearest to the light.
+#[derive(Clone, Copy, Debug)]
+struct Lit {
+    s: f32,
+    distance: f32,
+    t0: f32,
+    t1: f32,
+}
+
+impl Lit {
+    #[inline(always)]
+    fn sample(&self, u: f32) -> (f32, f32) {
+        let e = self.distribution();
+        let t = e.sample(u);
+        (t, e.pdf(t))
+    }
+
+    #[inline(always)]
+    fn pdf(&self, t: f32) -> f32 {
+        self.distribution().pdf(t)
+    }
+
+    #[inline(always)]
+    fn distribution(&self) -> warp::Equiangular {
+        warp::Equiangular::new(self.s, self.distance, self.t0, self.t1)
+    }
+}
+
+/// Solid angle at `x` per area at the light (1 for points, whose samples carry 1/d^2 in the intensity).
+#[inline(always)]
+fn jacobian(light: &Light, x: Vec3, target: &Target) -> f32 {
+    if light.is_delta() {
+        return 1.0;
+    }
+    let to = target.p - x;
+    let d2 = to.length_squared();
+    target.n.abs_dot(to) / (d2 * d2.sqrt())
+}
+
+/// Where the segment runs inside the spotlight's cone: roots of ((x - p).a)^2 = cos^2 |x - p|^2 on the lit side.
+fn cone_interval(spot: &SpotLight, o: Vec3, d: Vec3, t_max: f32) -> Option<(f32, f32)> {
+    let cos = f64::from(spot.cos_end);
+    if cos <= 0.0 {
+        return Some((0.0, t_max)); // wider than a half-space: not convex
+    }
+    let f = |v: Vec3| [f64::from(v.x), f64::from(v.y), f64::from(v.z)];
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let (axis, d64, q) = (f(spot.axis), f(d), f(o - spot.p));
+    let (da, qa, c2) = (dot(d64, axis), dot(q, axis), cos * cos);
+    // the quadratic a t^2 + 2 b t + c > 0 inside the double cone
+    let a = da * da - c2 * dot(d64, d64);
+    let b = da * qa - c2 * dot(d64, q);
+    let c = qa * qa - c2 * dot(q, q);
+    let lit = |t: f64| qa + t * da > 0.0;
+    let disc = b * b - a * c;
+    let (lo, hi) = if a < 0.0 {
+        // leaves the cone at both ends
+        if disc <= 0.0 {
+            return None;
+        }
+        let r = disc.sqrt();
+        let (t0, t1) = ((-b + r) / a, (-b - r) / a);
+        if !lit(0.5 * (t0 + t1)) {
+            return None;
+        }
+        (t0, t1)
+    } else {
+        // runs to infinity inside one of the two nappes
+        let r = disc.max(0.0).sqrt();
+        let (t0, t1) = if a > 0.0 { ((-b - r) / a, (-b + r) / a) } else { (-c / (2.0 * b), -c / (2.0 * b)) };
+        if da > 0.0 { (t1, f64::INFINITY) } else { (f64::NEG_INFINITY, t0) }
+    };
+    // a hair wider than the cone, so that rounding loses none of it
+    let slack = 1e-5 * (1.0 + lo.abs().min(hi.abs()));
+    let (t0, t1) = ((lo - slack).max(0.0) as f32, (hi + slack).min(f64::from(t_max)) as f32);
+    (t1 > t0).then_some((t0, t1))
+}
+
+/// The path in front of a segment.
+#[derive(Clone, Copy, Debug)]
+pub struct Origin<'a, 's, const N: usize> {
+    /// The medium of the segment.
+    pub medium: MediumId,
+    /// Its coefficients.
+    pub inside: &'a Inside<'s, N>,
+    /// The weight at the segment's start.
+    pub weight: &'a PathWeight<N>,
+    /// Scatterings that the sampled light has had.
+    pub order: u32,
+}
+
+/// One sample of the technique on `segment`: the light it adds to the pixel.
+#[inline]
+pub fn sample<const N: usize>(
+    scene: &Scene,
+    settings: &Settings,
+    segment: &Segment,
+    at: &Origin<'_, '_, N>,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+    seen: &mut impl PathObserver<N>,
+) -> Spectrum<N> {
+    // the light, a point on it, and the distance
+    let u_light = sampler.next_1d();
+    let u_point = sampler.next_2d();
+    let u_t = sampler.next_1d();
+    let value = (|| {
+        let id = scene.lights.select_local(u_light)?.id;
+        let light = scene.lights.get(id);
+        let y = light.sample_position(&scene.accel, [u_point.x, u_point.y])?;
+        let (t, pdf_t) = segment.lit(light, y.target.p)?.sample(u_t);
+        if pdf_t.is_nan() || pdf_t <= 0.0 {
+            return None;
+        }
+        connect(scene, settings, segment, at, id, &y, t, w, sampler)
+    })()
+    .unwrap_or(Spectrum::ZERO);
+    seen.contribution(at.order, &value);
+    value
+}
+
+/// Scatters at distance `t` towards the light point `y`.
+#[expect(clippy::too_many_arguments, reason = "the state of a path and of a sample")]
+#[inline]
+fn connect<const N: usize>(
+    scene: &Scene,
+    settings: &Settings,
+    segment: &Segment,
+    at: &Origin<'_, '_, N>,
+    id: LightId,
+    y: &PositionSample,
+    t: f32,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+) -> Option<Spectrum<N>> {
+    let (light, inside, weight) = (scene.lights.get(id), at.inside, at.weight);
+    let x = segment.o + segment.d * t;
+    let to = y.target.p - x;
+    let d2 = to.length_squared();
+    if d2 == 0.0 {
+        return None;
+    }
+    let wi = to * (1.0 / d2.sqrt());
+    let mut l = light.emitted_along(y, -wi, w);
+    if light.is_delta() {
+        l *= 1.0 / d2;
+    }
+    let technique = segment.density(scene, id, t, &y.target);
+    if l.is_zero() || technique.is_nan() || technique <= 0.0 {
+        return None;
+    }
+    let s = shadow(scene, settings, x, at.medium, End::At(y.target), w, sampler)?;
+    let phase = inside.phase.eval(-segment.d, wi, w);
+    let f = inside.sigma_s * inside.transmittance(t) * phase;
+    // densities of the three techniques, lane by lane
+    let flight = inside.collision_density(t, settings);
+    let by_light = scene.lights.pmf(id) * light.pdf_li(&scene.accel, x, wi, &y.target);
+    let by_chance = if light.is_delta() { Spectrum::ZERO } else { phase * s.r_u };
+    let r = weight.r_u * (s.r_l * technique + flight * (s.r_l * by_light + by_chance));
+    Some(divide(weight.beta * f * s.t * l, r))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tyndall_base::vec::vec3;
+    use tyndall_spectral::Curve;
+
+    #[test]
+    fn cone_interval_holds_exactly_the_lit_points() {
+        let spot =
+            SpotLight::new(vec3(0.0, 3.0, 0.0), vec3(0.0, -1.0, 0.0), Curve::ONE.into(), 20.0, 5.0).expect("valid");
+        let rays = [
+            (vec3(-5.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)),
+            (vec3(-5.0, 5.0, 0.0), vec3(1.0, 0.0, 0.0)),
+            (vec3(0.1, 2.0, 0.0), vec3(0.0, -1.0, 0.0)),
+            (vec3(0.1, -2.0, 0.0), vec3(0.0, 1.0, 0.0)),
+            (vec3(0.0, 0.0, 0.3), vec3(0.6, 0.0, 0.8)),
+            (vec3(2.0, 0.0, 0.3), vec3(-0.6, 0.3, -0.2).normalize()),
+        ];
+        for (o, d) in rays {
+            let interval = cone_interval(&spot, o, d, 10.0);
+            for i in 0..2000 {
+                let t = 10.0 * (i as f32 + 0.5) / 2000.0;
+                let to = (o + d * t - spot.p).normalize();
+                let cos = to.dot(spot.axis);
+                if (cos - spot.cos_end).abs() < 1e-3 {
+                    continue; // on the edge
+                }
+                let inside = interval.is_some_and(|(a, b)| t >= a && t <= b);
+                assert_eq!(inside, cos > spot.cos_end, "{o:?} {d:?} at {t}: {interval:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Free flight and transmittance at the path's wavelengths in a homogeneous medium.
+
+use crate::{settings::Settings, weight::exp};
+use tyndall_scatter::phase::PhaseFunction;
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::{MediumId, Scene};
+
+/// Coefficients \[1/m\] of the medium a path is in, looked up once on entering it.
+#[derive(Clone, Copy, Debug)]
+pub struct Inside<'s, const N: usize> {
+    /// Absorption coefficient.
+    pub sigma_a: Spectrum<N>,
+    /// Scattering coefficient.
+    pub sigma_s: Spectrum<N>,
+    /// Extinction coefficient.
+    pub sigma_t: Spectrum<N>,
+    /// Source radiance \[W m^-2 sr^-1 nm^-1\].
+    pub le: Spectrum<N>,
+    /// Phase function.
+    pub phase: &'s PhaseFunction,
+}
+
+impl<'s, const N: usize> Inside<'s, N> {
+    /// The medium `id` at the wavelengths `w`; `None` in vacuum.
+    #[inline(always)]
+    pub fn of(scene: &'s Scene, id: MediumId, w: &Wavelengths<N>) -> Option<Self> {
+        let m = scene.medium(id)?.homogeneous(w);
+        Some(Self { sigma_a: m.sigma_a, sigma_s: m.sigma_s, sigma_t: m.sigma_t(), le: m.le, phase: m.phase })
+    }
+
+    /// exp(-sigma_t t) per lane (Beer-Lambert).
+    #[inline(always)]
+    pub fn transmittance(&self, t: f32) -> Spectrum<N> {
+        exp(self.sigma_t * -t)
+    }
+
+    /// exp(-(sigma_t,k - sigma_t,hero) t): transmittance over the hero's, which cannot underflow as a quotient could.
+    #[inline(always)]
+    pub fn transmittance_over_hero(&self, t: f32) -> Spectrum<N> {
+        let hero = self.sigma_t.hero();
+        exp((self.sigma_t - Spectrum::splat(hero)) * -t)
+    }
+
+    /// Density of a collision at distance `t` that does not end the path, per lane \[1/m\].
+    #[inline(always)]
+    pub fn collision_density(&self, t: f32, settings: &Settings) -> Spectrum<N> {
+        self.collision_coefficient(settings) * self.transmittance(t)
+    }
+
+    /// sigma_t where absorption is a weight, sigma_s where it ends the path.
+    #[inline(always)]
+    pub fn collision_coefficient(&self, settings: &Settings) -> Spectrum<N> {
+        if settings.survival { self.sigma_t } else { self.sigma_s }
+    }
+
+    /// What the segment \[0, t\] emits towards its start: le sigma_a / sigma_t (1 - exp(-sigma_t t)), exactly.
+    #[inline]
+    pub fn emitted(&self, t: f32) -> Spectrum<N> {
+        let tau = self.sigma_t * t;
+        let absorbed = exp(-tau);
+        Spectrum::from_fn(|k| {
+            // the series keeps thin segments exact where 1 - exp(-tau) would cancel
+            let depth =
+                if tau[k] < 1e-2 { t * (1.0 - 0.5 * tau[k] + tau[k] * tau[k] * (1.0 / 6.0)) } else { (1.0 - absorbed[k]) / self.sigma_t[k] };
+            if self.sigma_a[k] > 0.0 { self.le[k] * self.sigma_a[k] * depth } else { 0.0 }
+        })
+    }
+}

@@ -1,0 +1,202 @@
+//! Samples of pixels: film position, wavelengths, camera ray, integrator, film response.
+
+use crate::{
+    analog,
+    layers::{Layers, Recorder},
+    observer::PathObserver,
+    settings::Settings,
+    volpath,
+};
+use std::sync::Arc;
+use tyndall_base::vec::vec2;
+use tyndall_film::{Channels, Guide, Pass, Patch, PixelFilter, WorkUnit};
+use tyndall_geometry::Ray;
+use tyndall_spectral::{Spectrum, WavelengthSampler, Wavelengths};
+use tyndall_transport::{Scene, camera::CameraSample, sampler::PathSampler};
+
+/// The path integrator to run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// [`crate::volpath`].
+    #[default]
+    Volpath,
+    /// [`crate::analog`].
+    Analog,
+}
+
+/// Wavelengths a path carries.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lanes {
+    /// One path, one wavelength.
+    One,
+    /// Four.
+    Four,
+    /// Eight.
+    #[default]
+    Eight,
+    /// Sixteen.
+    Sixteen,
+}
+
+impl Lanes {
+    /// The number of lanes.
+    pub const fn count(self) -> u32 {
+        match self {
+            Self::One => 1,
+            Self::Four => 4,
+            Self::Eight => 8,
+            Self::Sixteen => 16,
+        }
+    }
+
+    /// The lanes for `n` wavelengths; `None` for a number that is not compiled.
+    pub const fn from_count(n: u32) -> Option<Self> {
+        match n {
+            1 => Some(Self::One),
+            4 => Some(Self::Four),
+            8 => Some(Self::Eight),
+            16 => Some(Self::Sixteen),
+            _ => None,
+        }
+    }
+}
+
+/// Everything that turns (pixel, sample) into numbers on the film.
+#[derive(Clone, Debug)]
+pub struct PixelPass {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// The integrator.
+    pub method: Method,
+    /// Its switches.
+    pub settings: Settings,
+    /// Wavelengths a path carries.
+    pub lanes: Lanes,
+    /// How they are drawn.
+    pub wavelengths: WavelengthSampler,
+    /// The film's response curves.
+    pub channels: Channels,
+    /// Reconstruction filter, sampled.
+    pub filter: PixelFilter,
+    /// Layers beside the image.
+    pub layers: Layers,
+    /// The job's seed.
+    pub seed: u64,
+    /// Independent nets that a pixel's samples are dealt to.
+    pub replicates: u32,
+    /// Run the portable code even where the processor has AVX2: the bits are the same, as a test shows.
+    pub portable: bool,
+}
+
+/// A sample on its way: where it started and what it draws from.
+struct Start<const N: usize> {
+    ray: Ray,
+    weight: f32,
+    first_distance: f32,
+    w: Wavelengths<N>,
+    sampler: PathSampler,
+}
+
+impl Pass for PixelPass {
+    fn render(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
+        match (self.method, self.lanes) {
+            (Method::Analog, _) | (_, Lanes::One) => self.dispatch::<1>(unit, guide, out),
+            (_, Lanes::Four) => self.dispatch::<4>(unit, guide, out),
+            (_, Lanes::Eight) => self.dispatch::<8>(unit, guide, out),
+            (_, Lanes::Sixteen) => self.dispatch::<16>(unit, guide, out),
+        }
+    }
+}
+
+impl PixelPass {
+    /// Picks the widest instruction set; every version runs the same operations.
+    fn dispatch<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
+        #[cfg(target_arch = "x86_64")]
+        if !self.portable && self.layers.is_empty() && is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has AVX2, as was just asked.
+            return unsafe { self.run_avx2::<N>(unit, guide, out) };
+        }
+        if self.layers.is_empty() {
+            self.run::<N>(unit, guide, out);
+        } else {
+            self.run_layered::<N>(unit, guide, out);
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn run_avx2<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
+        self.run::<N>(unit, guide, out);
+    }
+
+    #[inline(always)]
+    fn run<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
+        let mut values = vec![0.0; self.channels.len()];
+        for (x, y) in unit.window.pixels() {
+            for sample in guide.samples_for(x, y, &unit.samples) {
+                out.mark(x, y, sample);
+                let mut start = self.start::<N>(x, y, sample);
+                let l = self.li(&mut start, &mut ());
+                self.channels.respond(&l, &start.w, &mut values);
+                out.add_sample(x, y, sample, start.weight, &values);
+            }
+        }
+    }
+
+    /// The same with layers: orders of scattering and AOVs behind the image's channels.
+    fn run_layered<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
+        let image = self.channels.len();
+        let mut values = vec![0.0; image + self.layers.channels(image)];
+        for (x, y) in unit.window.pixels() {
+            for sample in guide.samples_for(x, y, &unit.samples) {
+                out.mark(x, y, sample);
+                let mut start = self.start::<N>(x, y, sample);
+                let ray = start.ray;
+                let mut seen = Recorder::new(&self.layers);
+                let l = self.li(&mut start, &mut seen);
+                let (main, layers) = values.split_at_mut(image);
+                let response = self.channels.prepare(&start.w);
+                self.channels.respond_prepared(&l, &response, main);
+                self.layers.write(&self.scene, &ray, &start.w, &self.channels, &seen, layers);
+                out.add_sample(x, y, sample, start.weight, &values);
+            }
+        }
+    }
+
+    /// The path of one sample, watched.
+    pub fn watch<const N: usize>(
+        &self,
+        x: u32,
+        y: u32,
+        sample: u32,
+        seen: &mut impl PathObserver<N>,
+    ) -> (Wavelengths<N>, Spectrum<N>) {
+        let mut start = self.start::<N>(x, y, sample);
+        let l = self.li(&mut start, seen);
+        (start.w, l)
+    }
+
+    #[inline(always)]
+    fn start<const N: usize>(&self, x: u32, y: u32, sample: u32) -> Start<N> {
+        let mut sampler =
+            PathSampler::new(self.settings.sampler, self.seed, x, y, sample, self.replicates);
+        let u_film = sampler.next_2d();
+        let u_spectrum = sampler.next_2d();
+        let lens = sampler.next_2d();
+        let time = sampler.next_1d();
+        let filter = self.filter.sample([u_film.x, u_film.y]);
+        let film = vec2(x as f32 + 0.5 + filter.offset[0], y as f32 + 0.5 + filter.offset[1]);
+        let ray = self.scene.camera.sample_ray(&CameraSample { film, lens, time });
+        let w = self.wavelengths.sample::<N>(u_spectrum.x);
+        Start { ray, weight: filter.weight, first_distance: u_spectrum.y, w, sampler }
+    }
+
+    #[inline(always)]
+    fn li<const N: usize>(&self, start: &mut Start<N>, seen: &mut impl PathObserver<N>) -> Spectrum<N> {
+        let Start { ray, first_distance, w, sampler, .. } = start;
+        if self.method == Method::Analog {
+            return analog::li(&self.scene, self.settings.max_depth, *ray, w, sampler, seen);
+        }
+        volpath::li(&self.scene, &self.settings, *ray, *first_distance, w, sampler, seen)
+    }
+}

@@ -1,0 +1,57 @@
+//! Switches of the integrators. Every technique that pays can be turned off, to show that the mean does not move.
+
+use tyndall_transport::sampler::SamplerKind;
+
+/// When a segment also gets an equiangular sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Equiangular {
+    /// Never.
+    Off,
+    /// Where the medium between ray and light is thin or absorbs much.
+    #[default]
+    Auto,
+    /// On every segment of a medium.
+    Always,
+}
+
+/// How a path integrator works. Defaults are what ships.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Scatterings a path may have; `u32::MAX` is unlimited. Boundaries without a material are free.
+    pub max_depth: u32,
+    /// Points of the first dimensions.
+    pub sampler: SamplerKind,
+    /// Widen narrow lobes after the first scattering that is not specular (pbrt's `regularize`): biased.
+    pub regularize: bool,
+    /// Choose directions to lights (next-event estimation), combined with chance hits.
+    pub light_sampling: bool,
+    /// `exp(-sigma_t d)` on shadow rays; off: a free flight along the shadow ray that passes or does not.
+    pub exact_transmittance: bool,
+    /// Weight by the albedo; off: absorption ends the path.
+    pub survival: bool,
+    /// Distances drawn towards a light.
+    pub equiangular: Equiangular,
+    /// Limit equiangular distances to the lit part of a spotlight's cone.
+    pub cone_clipping: bool,
+    /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
+    pub roulette_depth: u32,
+    /// A path of throughput below this is at risk.
+    pub roulette_threshold: f32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            max_depth: 5,
+            sampler: SamplerKind::OwenSobol,
+            regularize: false,
+            light_sampling: true,
+            exact_transmittance: true,
+            survival: true,
+            equiangular: Equiangular::Auto,
+            cone_clipping: true,
+            roulette_depth: 1,
+            roulette_threshold: 1.0,
+        }
+    }
+}

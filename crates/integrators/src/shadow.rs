@@ -1,0 +1,99 @@
+//! Visibility and transmittance between two points, through boundaries that do not bend light.
+
+use crate::{medium::Inside, settings::Settings};
+use tyndall_base::Vec3;
+use tyndall_geometry::Ray;
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::{MediumId, Scene, light::Target, sampler::PathSampler};
+
+/// The estimate of transmittance along a shadow ray, with what it does to the densities of the techniques.
+#[derive(Clone, Copy, Debug)]
+pub struct Shadow<const N: usize> {
+    /// Estimate of the transmittance, over the hero's probability of the estimate.
+    pub t: Spectrum<N>,
+    /// Lanes' densities of this estimate over the hero's: 1 where the transmittance is exact.
+    pub r_l: Spectrum<N>,
+    /// Density of a path of chance that gets through, over the hero's density of this estimate.
+    pub r_u: Spectrum<N>,
+}
+
+/// The far end of a shadow ray: a point on a light, or a direction to infinity.
+#[derive(Clone, Copy, Debug)]
+pub enum End {
+    /// Stops short of the point.
+    At(Target),
+    /// Leaves the scene.
+    Infinity(Vec3),
+}
+
+/// Follows the shadow ray from `o` (already moved off its surface); `None` when a surface blocks it.
+#[inline]
+pub fn shadow<const N: usize>(
+    scene: &Scene,
+    settings: &Settings,
+    mut o: Vec3,
+    mut medium: MediumId,
+    end: End,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+) -> Option<Shadow<N>> {
+    let mut s = Shadow { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE };
+    loop {
+        let Some(ray) = towards(o, &end) else { return Some(s) };
+        let hit = scene.intersect(&ray);
+        let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
+        // a blocked ray needs no transmittance
+        let isect = match &hit {
+            Some(h) => {
+                let isect = scene.interaction(&ray, h);
+                if !isect.binding.material.is_interface() {
+                    return None;
+                }
+                Some(isect)
+            }
+            None => None,
+        };
+        if let Some(inside) = Inside::of(scene, medium, w) {
+            attenuate(&mut s, &inside, t, settings, sampler)?;
+        }
+        let Some(isect) = isect else { return Some(s) };
+        medium = isect.medium_towards(ray.d, medium);
+        o = isect.surface.origin(ray.d);
+    }
+}
+
+/// The remaining ray; `None` when nothing remains.
+#[inline(always)]
+fn towards(o: Vec3, end: &End) -> Option<Ray> {
+    match end {
+        End::Infinity(d) => Some(Ray::new(o, *d)),
+        End::At(target) => target.ray_from(o, 0.0),
+    }
+}
+
+#[inline(always)]
+fn attenuate<const N: usize>(
+    s: &mut Shadow<N>,
+    inside: &Inside<'_, N>,
+    distance: f32,
+    settings: &Settings,
+    sampler: &mut PathSampler,
+) -> Option<()> {
+    if settings.exact_transmittance {
+        let t = inside.transmittance(distance);
+        s.t *= t;
+        s.r_u *= t;
+        return Some(());
+    }
+    // a free flight at the hero's wavelength that gets through or does not
+    let hero = inside.sigma_t.hero();
+    let flight = tyndall_base::warp::sample_exponential(sampler.next_1d(), 1.0);
+    if flight < hero * distance {
+        return None;
+    }
+    let ratio = inside.transmittance_over_hero(distance);
+    s.t *= ratio;
+    s.r_l *= ratio;
+    s.r_u *= ratio;
+    Some(())
+}

@@ -1,0 +1,412 @@
+//! `volpath`: path tracing through surfaces and media with spectral multiple importance sampling.
+//!
+//! Distances are drawn from the hero's transmittance, collisions carry the albedo as a weight, shadow rays the exact
+//! transmittance; lights are met by chance, by light sampling and by equiangular sampling, combined by the balance
+//! heuristic over techniques and wavelengths at once (see [`crate::weight`]).
+
+use crate::{
+    direct::{self, Rival, Scatterer},
+    equiangular::{self, Segment},
+    medium::Inside,
+    observer::{Event, PathObserver, Vertex},
+    settings::Settings,
+    weight::{PathWeight, divide},
+};
+use tyndall_base::{Vec3, warp};
+use tyndall_geometry::{Hit, Ray};
+use tyndall_scatter::bsdf::BsdfFlags;
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::{Interaction, MediumId, Scene, sampler::PathSampler};
+
+/// Boundaries without a material that a path may cross between two scatterings; more means a cycle of rounding.
+const MAX_CROSSINGS: u32 = 10_000;
+
+/// Radiance along `ray` per lane; `first` is the random number of the first flight.
+#[inline(always)]
+pub fn li<const N: usize>(
+    scene: &Scene,
+    settings: &Settings,
+    ray: Ray,
+    first: f32,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+    seen: &mut impl PathObserver<N>,
+) -> Spectrum<N> {
+    let mut walk = Walk {
+        scene,
+        settings,
+        w,
+        ray,
+        previous: ray.o,
+        medium: scene.camera_medium,
+        inside: Inside::of(scene, scene.camera_medium, w),
+        weight: PathWeight::START,
+        rival: None,
+        flight: warp::sample_exponential(first, 1.0),
+        depth: 0,
+        crossings: 0,
+        eta_scale: 1.0,
+        scattered_widely: false,
+        l: Spectrum::ZERO,
+    };
+    while walk.step(sampler, seen) {}
+    walk.l
+}
+
+/// The state of a path.
+struct Walk<'s, const N: usize> {
+    scene: &'s Scene,
+    settings: &'s Settings,
+    w: &'s Wavelengths<N>,
+    ray: Ray,
+    /// The last scattering, from which densities of light sampling are measured.
+    previous: Vec3,
+    medium: MediumId,
+    inside: Option<Inside<'s, N>>,
+    weight: PathWeight<N>,
+    /// The equiangular technique of the last scattering.
+    rival: Option<Rival>,
+    /// Optical distance to the next collision at the hero's wavelength; one number serves all boundaries on the way.
+    flight: f32,
+    depth: u32,
+    crossings: u32,
+    /// Squared relative index of refraction along the path: undoes the compression of radiance in roulette.
+    eta_scale: f32,
+    /// Some scattering was not specular.
+    scattered_widely: bool,
+    l: Spectrum<N>,
+}
+
+impl<'s, const N: usize> Walk<'s, N> {
+    /// One segment and the event at its end; false when the path ends.
+    #[inline(always)]
+    fn step(&mut self, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> bool {
+        let hit = self.scene.intersect(&self.ray);
+        let t_max = hit.as_ref().map_or(f32::INFINITY, |h| h.t);
+        if let Some(inside) = self.inside {
+            self.emission(&inside, t_max, seen);
+            let segment = self.equiangular(&inside, t_max, sampler, seen);
+            if let Some(t) = self.collision(&inside, t_max) {
+                return self.scatter_medium(&inside, t, segment, sampler, seen);
+            }
+            self.pass(&inside, t_max);
+        }
+        match hit {
+            None => self.escape(seen),
+            Some(hit) => self.surface(&hit, sampler, seen),
+        }
+    }
+
+    /// Adds `value / mean(r)` to the pixel.
+    #[inline(always)]
+    fn add(&mut self, value: Spectrum<N>, r: Spectrum<N>, seen: &mut impl PathObserver<N>) {
+        let value = divide(value, r);
+        seen.contribution(self.depth, &value);
+        self.l += value;
+    }
+
+    /// What the medium emits along the segment, in closed form.
+    #[inline(always)]
+    fn emission(&mut self, inside: &Inside<'s, N>, t_max: f32, seen: &mut impl PathObserver<N>) {
+        if !inside.le.is_zero() {
+            self.add(self.weight.beta * inside.emitted(t_max), self.weight.r_u, seen);
+        }
+    }
+
+    /// A sample of the equiangular technique; returns the segment for the free flight's weights.
+    #[inline(always)]
+    fn equiangular(
+        &mut self,
+        inside: &Inside<'s, N>,
+        t_max: f32,
+        sampler: &mut PathSampler,
+        seen: &mut impl PathObserver<N>,
+    ) -> Option<Segment> {
+        if self.depth >= self.settings.max_depth {
+            return None;
+        }
+        let segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;
+        let at = equiangular::Origin { medium: self.medium, inside, weight: &self.weight, order: self.depth + 1 };
+        self.l += equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler, seen);
+        Some(segment)
+    }
+
+    /// Distance of the collision on this segment, or `None` when the flight gets through.
+    #[inline(always)]
+    fn collision(&mut self, inside: &Inside<'s, N>, t_max: f32) -> Option<f32> {
+        let hero = inside.sigma_t.hero();
+        let tau = hero * t_max;
+        // 0 * infinity: no extinction over an unbounded segment is no collision
+        if self.flight >= tau || hero <= 0.0 {
+            if hero > 0.0 {
+                self.flight -= tau;
+            }
+            return None;
+        }
+        Some(self.flight / hero)
+    }
+
+    /// The segment was crossed without a collision.
+    #[inline(always)]
+    fn pass(&mut self, inside: &Inside<'s, N>, t_max: f32) {
+        if t_max == f32::INFINITY && inside.sigma_t.max_lane() > 0.0 {
+            // lanes with extinction see nothing through an unbounded medium; others pass
+            let open = inside.sigma_t.map(|s| if s > 0.0 { 0.0 } else { 1.0 });
+            self.weight.fly(open, open);
+            return;
+        }
+        if t_max == f32::INFINITY {
+            return;
+        }
+        let ratio = inside.transmittance_over_hero(t_max);
+        self.weight.fly(ratio, ratio);
+        // light and equiangular samples do not draw this flight: their density lacks the hero's probability of it
+        let lost = if self.settings.exact_transmittance {
+            Spectrum::splat(crate::weight::exp(Spectrum([inside.sigma_t.hero() * t_max])).hero())
+        } else {
+            ratio
+        };
+        self.weight.r_l *= lost;
+        self.weight.r_e *= lost;
+    }
+
+    /// A collision at distance `t`.
+    #[inline(always)]
+    fn scatter_medium(
+        &mut self,
+        inside: &Inside<'s, N>,
+        t: f32,
+        segment: Option<Segment>,
+        sampler: &mut PathSampler,
+        seen: &mut impl PathObserver<N>,
+    ) -> bool {
+        let p = self.ray.at(t);
+        self.watch(Event::Medium, p, Vec3::ZERO, t, inside.sigma_s.safe_div(inside.sigma_t), seen);
+        if self.depth >= self.settings.max_depth {
+            return false;
+        }
+        self.depth += 1;
+        sampler.seek_vertex(self.depth - 1);
+        // analog absorption, where it is asked for: the hero's albedo decides
+        if !self.settings.survival {
+            let albedo = inside.sigma_s.hero() / inside.sigma_t.hero();
+            if sampler.next_1d() >= albedo {
+                return false;
+            }
+        }
+        let before = self.weight.r_u;
+        let coefficient = inside.collision_coefficient(self.settings);
+        let hero = coefficient.hero();
+        let ratio = inside.transmittance_over_hero(t) * (1.0 / hero);
+        self.weight.fly(inside.sigma_s * ratio, coefficient * ratio);
+        if self.weight.beta.is_zero() {
+            return false;
+        }
+        // the equiangular technique could have put a vertex here without this flight
+        let to_hero = crate::weight::exp(Spectrum([inside.sigma_t.hero() * t])).hero() / hero;
+        self.weight.r_e = if segment.is_some() { before * to_hero } else { Spectrum::ZERO };
+        self.rival = segment.map(|segment| Rival { segment, t });
+        self.previous = p;
+        self.scattered_widely = true;
+
+        let wo = -self.ray.d;
+        if self.settings.light_sampling {
+            let medium = self.medium;
+            let vertex = Scatterer {
+                p,
+                spawn: |_| (p, medium),
+                eval: |wi| {
+                    let phase = inside.phase.eval(wo, wi, self.w);
+                    (phase, phase)
+                },
+                rival: self.rival,
+            };
+            self.direct(&vertex, sampler, seen);
+        }
+        let u = sampler.next_2d();
+        let s = inside.phase.sample(wo, [u.x, u.y], self.w);
+        if !self.weight.scatter(s.p, s.p, false) {
+            return false;
+        }
+        self.ray = Ray { time: self.ray.time, ..Ray::new(p, s.wi) };
+        self.survives(sampler)
+    }
+
+    /// Light from infinity.
+    #[inline(always)]
+    fn escape(&mut self, seen: &mut impl PathObserver<N>) -> bool {
+        let far = self.ray.o + self.ray.d;
+        self.watch(Event::Escape, far, Vec3::ZERO, f32::INFINITY, Spectrum::ZERO, seen);
+        for &id in self.scene.lights.infinite() {
+            let light = self.scene.lights.get(id);
+            let le = light.le_infinite(self.ray.d, self.w);
+            let pdf = self.scene.lights.pmf(id) * light.pdf_infinite(self.ray.d);
+            let r = self.weight.r_u + self.weight.r_l * self.by_light(pdf);
+            self.add(self.weight.beta * le, r, seen);
+        }
+        false
+    }
+
+    /// `pdf` where light sampling competes, else 0.
+    #[inline(always)]
+    fn by_light(&self, pdf: f32) -> f32 {
+        if self.settings.light_sampling { pdf } else { 0.0 }
+    }
+
+    /// A surface at the end of the segment.
+    #[inline(always)]
+    fn surface(&mut self, hit: &Hit, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> bool {
+        let isect = self.scene.interaction(&self.ray, hit);
+        self.emitted(hit, &isect, seen);
+        let binding = isect.binding;
+        if binding.material.is_interface() {
+            return self.cross(&isect, hit.t, seen);
+        }
+        let material = &self.scene.materials[binding.material.index()];
+        let (frame, mut bsdf) = material.shade(&isect.surface, self.w);
+        if self.settings.regularize && self.scattered_widely {
+            bsdf = bsdf.regularized();
+        }
+        let wo = frame.to_local(-self.ray.d);
+        self.watch_surface(&isect, frame.z, hit.t, seen);
+        if self.depth >= self.settings.max_depth {
+            return false;
+        }
+        self.depth += 1;
+        sampler.seek_vertex(self.depth - 1);
+        self.weight.r_e = Spectrum::ZERO;
+        self.rival = None;
+        self.previous = isect.surface.p;
+
+        if self.settings.light_sampling && !bsdf.is_delta() {
+            let medium = self.medium;
+            let vertex = Scatterer {
+                p: isect.surface.p,
+                spawn: |wi| (isect.surface.origin(wi), isect.medium_towards(wi, medium)),
+                eval: |wi| {
+                    let wi = frame.to_local(wi);
+                    (bsdf.eval(wo, wi) * wi.z.abs(), bsdf.pdf(wo, wi))
+                },
+                rival: None,
+            };
+            self.direct(&vertex, sampler, seen);
+        }
+        let uc = sampler.next_1d();
+        let u = sampler.next_2d();
+        let Some(s) = bsdf.sample(wo, uc, [u.x, u.y]) else { return false };
+        let delta = s.flags.contains(BsdfFlags::DELTA);
+        self.scattered_widely |= !delta;
+        if !self.weight.scatter(s.f * s.wi.z.abs(), s.pdf, delta) {
+            return false;
+        }
+        let wi = frame.from_local(s.wi);
+        self.eta_scale *= s.eta * s.eta;
+        self.go(isect.surface.origin(wi), wi, isect.medium_towards(wi, self.medium));
+        self.survives(sampler)
+    }
+
+    /// Light that the surface emits towards the path.
+    #[inline(always)]
+    fn emitted(&mut self, hit: &Hit, isect: &Interaction<'_>, seen: &mut impl PathObserver<N>) {
+        let Some(id) = isect.light else { return };
+        let s = &isect.surface;
+        let light = self.scene.lights.get(id);
+        let le = light.radiance_at(s.ng, [s.uv.x, s.uv.y], -self.ray.d, self.w);
+        if le.is_zero() {
+            return;
+        }
+        let mut r = self.weight.r_u;
+        if self.settings.light_sampling && !(self.weight.r_l.is_zero() && self.weight.r_e.is_zero()) {
+            let target = light.target(&self.scene.accel, hit, s);
+            let pdf = self.scene.lights.pmf(id)
+                * light.pdf_li(&self.scene.accel, self.previous, self.ray.d, &target);
+            r += self.weight.r_l * pdf;
+            if let Some(rival) = &self.rival {
+                r += self.weight.r_e * rival.density(self.scene, id, &target);
+            }
+        }
+        self.add(self.weight.beta * le, r, seen);
+    }
+
+    /// Goes on through a boundary that does not bend light.
+    #[inline(always)]
+    fn cross(&mut self, isect: &Interaction<'_>, t: f32, seen: &mut impl PathObserver<N>) -> bool {
+        self.watch(Event::Boundary, isect.surface.p, isect.surface.ng, t, Spectrum::ONE, seen);
+        self.crossings += 1;
+        let d = self.ray.d;
+        self.go(isect.surface.origin(d), d, isect.medium_towards(d, self.medium));
+        self.crossings <= MAX_CROSSINGS
+    }
+
+    /// Continues from `o` along `d` in `medium`.
+    #[inline(always)]
+    fn go(&mut self, o: Vec3, d: Vec3, medium: MediumId) {
+        self.ray = Ray { time: self.ray.time, ..Ray::new(o, d) };
+        if medium != self.medium {
+            self.medium = medium;
+            self.inside = Inside::of(self.scene, medium, self.w);
+        }
+    }
+
+    /// Light sampling at a vertex.
+    #[inline(always)]
+    fn direct<S, F>(
+        &mut self,
+        vertex: &Scatterer<S, F>,
+        sampler: &mut PathSampler,
+        seen: &mut impl PathObserver<N>,
+    ) where
+        S: Fn(Vec3) -> (Vec3, MediumId),
+        F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
+    {
+        let value = direct::sample(self.scene, self.settings, vertex, &self.weight, self.w, sampler);
+        seen.contribution(self.depth, &value);
+        self.l += value;
+    }
+
+    /// Russian roulette on the throughput the lanes agree on, and the next flight.
+    #[inline(always)]
+    fn survives(&mut self, sampler: &mut PathSampler) -> bool {
+        self.flight = warp::sample_exponential(sampler.next_1d(), 1.0);
+        if self.depth <= self.settings.roulette_depth {
+            return true;
+        }
+        let q = self.weight.throughput().max_lane() * self.eta_scale / self.settings.roulette_threshold;
+        if q >= 1.0 {
+            return true;
+        }
+        if sampler.next_1d() >= q {
+            return false;
+        }
+        self.weight.survive(q);
+        true
+    }
+
+    /// Tells the observer of a surface.
+    #[inline(always)]
+    fn watch_surface<O: PathObserver<N>>(&self, isect: &Interaction<'_>, n: Vec3, t: f32, seen: &mut O) {
+        if O::WANTS_VERTICES {
+            let material = &self.scene.materials[isect.binding.material.index()];
+            let albedo = material.albedo(&isect.surface, self.w);
+            self.watch(Event::Surface, isect.surface.p, n, t, albedo, seen);
+        }
+    }
+
+    /// Tells the observer of a vertex.
+    #[inline(always)]
+    fn watch<O: PathObserver<N>>(
+        &self,
+        event: Event,
+        p: Vec3,
+        n: Vec3,
+        distance: f32,
+        albedo: Spectrum<N>,
+        seen: &mut O,
+    ) {
+        if O::WANTS_VERTICES {
+            let throughput = self.weight.throughput();
+            let (depth, medium) = (self.depth, self.medium);
+            seen.vertex(&Vertex { event, p, n, distance, depth, medium, albedo, throughput });
+        }
+    }
+}

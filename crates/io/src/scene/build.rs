@@ -1,0 +1,294 @@
+//! From collected directives to the scene.
+
+use super::{
+    LoadOptions, LoadedScene,
+    camera,
+    collect::{Collected, Declared, ShapeRecord},
+    context::{Context, at},
+    emission::Units,
+    film, light,
+    material::Materials,
+    medium, render, shape,
+    texture::Textures,
+};
+use std::{collections::HashMap, sync::Arc, time::Instant};
+use tyndall_geometry::{Accel, BuildOptions, InstanceDesc, ShapeGroup};
+use tyndall_pbrt::{EntityKind, Error, Inventory, ParamSet, Text};
+use tyndall_spectral::{Emission, LambdaRange, cie};
+use tyndall_transport::{
+    LightId, MediumId, Scene, ShapeBinding,
+    light::{AreaLight, Light, LightSet},
+    media::Medium,
+    scene::Boundary,
+};
+
+/// Media by name.
+struct Media {
+    table: Vec<Medium>,
+    ids: HashMap<String, MediumId>,
+    names: Vec<String>,
+    /// pbrt's `path` leaves media out.
+    ignored: bool,
+}
+
+impl Media {
+    fn new(ctx: &Context<'_>, collected: &Collected, units: &mut Units, ignored: bool) -> Result<Self, Error> {
+        let mut media = Self { table: Vec::new(), ids: HashMap::new(), names: Vec::new(), ignored };
+        for declared in &collected.media {
+            let name = declared.name.as_str().to_owned();
+            media.ids.insert(name.clone(), MediumId(media.table.len() as u32));
+            media.table.push(medium::medium(ctx, declared, units)?);
+            media.names.push(name);
+        }
+        Ok(media)
+    }
+
+    fn find(&self, name: &Text, params: &ParamSet) -> Result<MediumId, Error> {
+        if name.as_str().is_empty() {
+            return Ok(MediumId::VACUUM);
+        }
+        let id = self.ids.get(name.as_str()).copied().ok_or_else(|| {
+            let e = params.error(format!("no medium is named \"{}\"", name.as_str()));
+            match tyndall_pbrt::did_you_mean(name.as_str(), self.ids.keys().map(String::as_str)) {
+                Some(hint) => e.hint(hint),
+                None => e.hint("media are defined by MakeNamedMedium"),
+            }
+        })?;
+        Ok(if self.ignored { MediumId::VACUUM } else { id })
+    }
+
+    fn boundary(&self, record: &ShapeRecord) -> Result<Option<Boundary>, Error> {
+        let Some((inside, outside)) = &record.media else { return Ok(None) };
+        let params = &record.declared.params;
+        let (inside, outside) = (self.find(inside, params)?, self.find(outside, params)?);
+        Ok((inside != outside).then_some(Boundary { inside, outside }))
+    }
+}
+
+/// Shape groups with what is bound to them; area lights come later, when areas are known.
+struct Groups<'a> {
+    groups: Vec<ShapeGroup>,
+    bindings: Vec<ShapeBinding>,
+    /// The record of each group.
+    records: Vec<&'a ShapeRecord>,
+}
+
+impl<'a> Groups<'a> {
+    fn add(
+        &mut self,
+        ctx: &Context<'_>,
+        record: &'a ShapeRecord,
+        materials: &Materials,
+        media: &Media,
+    ) -> Result<std::ops::Range<u32>, Error> {
+        let first = self.groups.len() as u32;
+        let params = &record.declared.params;
+        if params.contains("alpha") && params.float_opt("alpha").ok().flatten() != Some(1.0) {
+            params.unsupported("alpha", "comes in a later version");
+            return Err(params.error_at("alpha", "is not supported in this version", "an alpha below 1"));
+        }
+        let material = materials.find(&record.material, params)?;
+        let boundary = media.boundary(record)?;
+        for shape in shape::shapes(ctx, record)? {
+            // quadrics carry their transform, meshes come transformed: orientation is the same for both
+            let group = ShapeGroup {
+                shape,
+                reverse_orientation: record.reverse_orientation,
+                transform_swaps_handedness: record.declared.ctm.start.swaps_handedness(),
+                mask: tyndall_geometry::MASK_ALL,
+            };
+            self.groups.push(group);
+            self.bindings.push(ShapeBinding { material, boundary, first_light: None });
+            self.records.push(record);
+        }
+        Ok(first..self.groups.len() as u32)
+    }
+}
+
+/// Makes everything; `hash`, `diagnostics` and the loading time are the caller's to fill in.
+pub fn build(
+    ctx: &Context<'_>,
+    collected: &Collected,
+    options: &LoadOptions,
+    inventory: Inventory,
+) -> Result<LoadedScene, Error> {
+    let integrator = integrator(ctx, collected, options)?;
+    let sampler = render::sampler(ctx, collected)?;
+    let filter = film::filter(ctx, collected.options.get(&EntityKind::PixelFilter))?;
+    let default_film = Declared::default_of(EntityKind::Film, "rgb")?;
+    let declared_film = collected.options.get(&EntityKind::Film).unwrap_or(&default_film);
+    let default_camera = Declared::default_of(EntityKind::Camera, "perspective")?;
+    let declared_camera = collected.options.get(&EntityKind::Camera).unwrap_or(&default_camera);
+    let resolution = film::resolution(&declared_film.params)?;
+    let (camera, shutter) = camera::camera(ctx, declared_camera, resolution)?;
+    let film = film::film(ctx, declared_film, shutter[1] - shutter[0])?;
+    if let Some(accelerator) = collected.options.get(&EntityKind::Accelerator) {
+        accelerator.params.ignore_rest("there is one acceleration structure");
+    }
+
+    let mut units = Units::default();
+    let textures = Textures::new(*ctx, collected);
+    let materials = Materials::new(ctx, collected, &textures)?;
+    textures.check_all()?;
+    let media = Media::new(ctx, collected, &mut units, integrator.ignores_media)?;
+    let mut lights = light::lights(ctx, collected, &mut units)?;
+
+    // shapes of the world, then those of objects
+    let mut groups = Groups { groups: Vec::new(), bindings: Vec::new(), records: Vec::new() };
+    for record in &collected.shapes {
+        groups.add(ctx, record, &materials, &media)?;
+    }
+    let world = groups.groups.len();
+    let (objects, instances) = instances(ctx, collected, &mut groups, &materials, &media)?;
+
+    let start = Instant::now();
+    let accel = Accel::build(groups.groups, &objects, instances, &BuildOptions { dispatch: options.dispatch })
+        .map_err(|e| shape_error(&groups.records, e))?;
+    let build_seconds = start.elapsed().as_secs_f64();
+
+    for (index, record) in groups.records.iter().enumerate() {
+        let binding = &mut groups.bindings[index];
+        binding.first_light = area_lights(ctx, record, index, index < world, binding, &accel, &mut lights, &mut units)?;
+    }
+    if units.normalised && units.absolute {
+        ctx.warnings.warn_without_place(
+            "some emitters are absolute and some normalised by pbrt's rule: their ratio has no meaning",
+        );
+    }
+    let camera_medium = match &collected.camera_medium {
+        Some(name) => media.find(name, &declared_camera.params)?,
+        None => MediumId::VACUUM,
+    };
+    let (_, radius) = accel.bounds().bounding_sphere();
+    let lights = LightSet::new(lights, &accel, radius, &|e| visible_power(e, ctx.range));
+    let stats = accel.stats();
+    let scene =
+        Scene { accel, shapes: groups.bindings, materials: materials.table, media: media.table, lights, camera, camera_medium };
+    Ok(LoadedScene {
+        scene: Arc::new(scene),
+        film,
+        filter,
+        sampler,
+        integrator,
+        units,
+        media: media.names,
+        inventory,
+        diagnostics: Arc::default(),
+        hash: String::new(),
+        stats,
+        seconds: [0.0, build_seconds],
+    })
+}
+
+fn integrator(
+    ctx: &Context<'_>,
+    collected: &Collected,
+    options: &LoadOptions,
+) -> Result<render::IntegratorDescription, Error> {
+    let declared = collected.options.get(&EntityKind::Integrator);
+    let Some(name) = &options.integrator else { return render::integrator(ctx, declared) };
+    let Some((method, ignores_media)) = render::integrator_named(name) else {
+        let message = format!("--integrator: expected {}, got \"{name}\"", render::INTEGRATORS);
+        return Err(Error::in_file(tyndall_pbrt::ErrorKind::Other(message), "command line"));
+    };
+    // the scene's parameters still count
+    let renamed = declared.map(|d| Declared { name: Text::new(name.as_str(), d.name.span()), ..d.clone() });
+    let mut found = render::integrator(ctx, renamed.as_ref())?;
+    (found.name, found.method, found.ignores_media) = (name.clone(), method, ignores_media);
+    Ok(found)
+}
+
+fn instances<'a>(
+    ctx: &Context<'_>,
+    collected: &'a Collected,
+    groups: &mut Groups<'a>,
+    materials: &Materials,
+    media: &Media,
+) -> Result<(Vec<Vec<u32>>, Vec<InstanceDesc>), Error> {
+    let mut objects = Vec::new();
+    let mut ids = HashMap::new();
+    for name in &collected.object_order {
+        let mut members = Vec::new();
+        for record in &collected.objects[name] {
+            members.extend(groups.add(ctx, record, materials, media)?);
+        }
+        ids.insert(name.as_str(), objects.len() as u32);
+        objects.push(members);
+    }
+    let mut placed = Vec::new();
+    for instance in &collected.instances {
+        let name = instance.object.as_str();
+        let place = || collected.place(&instance.object);
+        let Some(&object) = ids.get(name) else {
+            let message = format!("ObjectInstance: no object is named \"{name}\"");
+            let e = Error::new(tyndall_pbrt::ErrorKind::Other(message), place());
+            return Err(match tyndall_pbrt::did_you_mean(name, ids.keys().copied()) {
+                Some(hint) => e.hint(hint),
+                None => e,
+            });
+        };
+        if instance.ctm.moves() {
+            ctx.warnings.warn(place(), "moving instances are not supported in this version: the start counts");
+        }
+        placed.push(InstanceDesc { object, to_world: instance.ctm.start });
+    }
+    Ok((objects, placed))
+}
+
+/// The lights of an emitting shape, one a primitive; the first one's id.
+#[expect(clippy::too_many_arguments, reason = "one shape of the loop above")]
+fn area_lights(
+    ctx: &Context<'_>,
+    record: &ShapeRecord,
+    group: usize,
+    in_world: bool,
+    binding: &ShapeBinding,
+    accel: &Accel,
+    lights: &mut Vec<Light>,
+    units: &mut Units,
+) -> Result<Option<LightId>, Error> {
+    let Some(area) = &record.area_light else { return Ok(None) };
+    let place = record.declared.params.place();
+    if !in_world {
+        ctx.warnings.warn(place, "shapes of objects do not emit, as in pbrt: the area light is left out");
+        return Ok(None);
+    }
+    if binding.material.is_interface() {
+        ctx.warnings.warn(place, "a shape with the interface material does not emit, as in pbrt");
+        return Ok(None);
+    }
+    let shape = group as u32;
+    let prims = accel.group(shape).shape.prim_count() as u32;
+    let total: f64 = (0..prims).map(|prim| f64::from(accel.group(shape).area(prim))).sum();
+    let (emission, two_sided) = light::area(ctx, area, &record.declared.color_space, total, units)?;
+    let first = LightId(lights.len() as u32);
+    lights.extend((0..prims).map(|prim| Light::Area(AreaLight { shape, prim, emission: emission.clone(), two_sided })));
+    Ok(Some(first))
+}
+
+/// Power that the eye sees and, in half the weight, power at all: a light beyond the eye still counts for bands.
+fn visible_power(emission: &Emission, range: LambdaRange) -> f64 {
+    let width = f64::from(range.width());
+    let steps = width.ceil().max(1.0) as usize;
+    let weight = |l: f32| {
+        let seen: f32 = cie::matching_functions().iter().map(|c| c.eval(l)).sum();
+        f64::from(seen) / 320.0 + 0.5 / width
+    };
+    let at = |i: usize| range.min + range.width() * (i as f32 + 0.5) / steps as f32;
+    let continuum: f64 = (0..steps).map(|i| weight(at(i)) * f64::from(emission.continuum().eval(at(i)))).sum();
+    let lines: f64 = emission.lines().iter().map(|l| weight(l.lambda) * f64::from(l.power)).sum();
+    continuum * width / steps as f64 + lines
+}
+
+/// The mistake of a shape, at its directive.
+fn shape_error(records: &[&ShapeRecord], e: tyndall_geometry::GeometryError) -> Error {
+    let group = match &e {
+        tyndall_geometry::GeometryError::BadCoordinate { place, .. }
+        | tyndall_geometry::GeometryError::IndexOutOfRange { place, .. } => place.group,
+        _ => None,
+    };
+    match group.and_then(|g| records.get(g as usize)) {
+        Some(record) => at(&record.declared.params, e),
+        None => Error::in_file(tyndall_pbrt::ErrorKind::Other(e.to_string()), "scene"),
+    }
+}

@@ -1,0 +1,71 @@
+//! `MakeNamedMedium`: media and their phase functions.
+
+use super::{
+    collect::Declared,
+    context::{Context, at, refuse},
+    emission,
+    phase,
+    spectrum::{self, Purpose},
+};
+use tyndall_pbrt::{Error, ParamSet};
+use tyndall_spectral::{Curve, colour::SpaceName, media_presets, upsample};
+use tyndall_transport::media::{Homogeneous, Medium};
+
+const KNOWN: [&str; 22] = [
+    "type", "preset", "sigma_a", "sigma_s", "scale", "Le", "Lescale", "g", "phase", "absolute", "extrapolate",
+    "interpolation", "depolarisation", "alpha", "g2", "weight", "n", "mu", "k", "lines", "density", "filename",
+];
+
+/// The medium of a directive.
+pub fn medium(ctx: &Context<'_>, declared: &Declared, units: &mut emission::Units) -> Result<Medium, Error> {
+    let params = &declared.params;
+    let class = params.string("type", "")?;
+    let medium = match class.as_str() {
+        "homogeneous" => Medium::Homogeneous(homogeneous(ctx, params, units)?),
+        "" => return Err(params.missing("string", "type")),
+        other => {
+            let known = "this version has \"homogeneous\"";
+            return Err(refuse(params, "type", "must be a medium that is supported", format!("\"{other}\"")).hint(known));
+        }
+    };
+    ctx.finish(params, &KNOWN);
+    Ok(medium)
+}
+
+fn homogeneous(ctx: &Context<'_>, params: &ParamSet, units: &mut emission::Units) -> Result<Homogeneous, Error> {
+    let [sigma_a, sigma_s] = coefficients(ctx, params)?;
+    let scale = params.float("scale", 1.0)?;
+    if !(scale >= 0.0 && scale.is_finite()) {
+        return Err(refuse(params, "scale", "must be finite and >= 0", scale));
+    }
+    let le = emission::of_medium(ctx, params, units)?;
+    let phase = phase::phase(ctx, params)?;
+    Homogeneous::new(sigma_a.scaled(scale), sigma_s.scaled(scale), le, phase, ctx.range).map_err(|e| at(params, e))
+}
+
+/// sigma_a, sigma_s: of a preset (in 1/mm as pbrt has them, used as they stand), else given, else 1.
+fn coefficients(ctx: &Context<'_>, params: &ParamSet) -> Result<[Curve; 2], Error> {
+    let preset = params.string("preset", "")?;
+    if !preset.is_empty() {
+        return match media_presets::medium_preset(&preset) {
+            Some(p) => {
+                params.warn_at("preset", PRESET_NOTE, ctx.warnings);
+                for name in ["sigma_a", "sigma_s"] {
+                    params.ignore(name, "the preset gives it");
+                }
+                let spectrum = |rgb| upsample::unbounded(SpaceName::Srgb, rgb).map_err(|e| at(params, e));
+                Ok([spectrum(p.sigma_a)?, spectrum(p.sigma_prime_s)?])
+            }
+            None => {
+                let names: Vec<_> = media_presets::names().collect();
+                let hint = tyndall_pbrt::did_you_mean(&preset, names.iter().copied())
+                    .unwrap_or_else(|| format!("known presets: {}", names.join(", ")));
+                Err(refuse(params, "preset", "must be a known medium", format!("\"{preset}\"")).hint(hint))
+            }
+        };
+    }
+    let one = |name| Ok::<_, Error>(spectrum::float_or_curve(ctx, params, name, Purpose::Unbounded)?.unwrap_or(Curve::ONE));
+    Ok([one("sigma_a")?, one("sigma_s")?])
+}
+
+const PRESET_NOTE: &str = "preset coefficients are reduced scattering and absorption in 1/mm, used as 1 per scene unit as pbrt does";

@@ -1,0 +1,121 @@
+//! pbrt-v4 scenes into a [`Scene`] and what to do with it.
+
+mod build;
+mod camera;
+mod collect;
+mod color_space;
+mod context;
+mod emission;
+mod film;
+mod image;
+mod light;
+mod material;
+mod medium;
+mod phase;
+mod render;
+mod shape;
+mod spectrum;
+mod state;
+mod texture;
+
+pub use emission::Units;
+pub use film::{FilmDescription, crop_bounds};
+pub use render::{INTEGRATORS, IntegratorDescription, SamplerDescription, integrator_named, unlimited};
+
+use std::{path::Path, sync::Arc, time::Instant};
+use tyndall_film::PixelFilter;
+use tyndall_geometry::{BuildStats, Dispatch};
+use tyndall_pbrt::{Diagnostics, Error, Inventory, Parser};
+use tyndall_spectral::LambdaRange;
+use tyndall_transport::Scene;
+
+/// How to load.
+#[derive(Clone, Debug)]
+pub struct LoadOptions {
+    /// Wavelengths of the job \[nm\].
+    pub range: LambdaRange,
+    /// Doubtful tables are errors.
+    pub strict: bool,
+    /// Another integrator than the scene's, by name.
+    pub integrator: Option<String>,
+    /// Instructions of the ray traversal.
+    pub dispatch: Dispatch,
+}
+
+impl Default for LoadOptions {
+    fn default() -> Self {
+        Self { range: LambdaRange::VISIBLE, strict: false, integrator: None, dispatch: Dispatch::Detect }
+    }
+}
+
+/// A scene with its render options.
+#[derive(Debug)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// Film.
+    pub film: FilmDescription,
+    /// Pixel filter.
+    pub filter: PixelFilter,
+    /// Samples.
+    pub sampler: SamplerDescription,
+    /// Integrator.
+    pub integrator: IntegratorDescription,
+    /// Units of the emitters.
+    pub units: Units,
+    /// Names of the media, by [`tyndall_transport::MediumId`].
+    pub media: Vec<String>,
+    /// Every parameter and what became of it.
+    pub inventory: Inventory,
+    /// Warnings and notes.
+    pub diagnostics: Arc<Diagnostics>,
+    /// blake3 over everything read, in order: scene text, meshes, images, spectra.
+    pub hash: String,
+    /// What the acceleration structure holds.
+    pub stats: BuildStats,
+    /// Seconds to read the files and make the scene, and to build the acceleration structure.
+    pub seconds: [f64; 2],
+}
+
+/// Loads a scene file.
+///
+/// # Errors
+/// The first mistake, with its place.
+pub fn load_file(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Error> {
+    load(Parser::open(path)?, options)
+}
+
+/// Loads a scene from memory; `name` is for messages, files are looked for in `dir`.
+///
+/// # Errors
+/// The first mistake, with its place.
+pub fn load_text(name: &str, text: &str, dir: &Path, options: &LoadOptions) -> Result<LoadedScene, Error> {
+    load(Parser::from_bytes(name, text.as_bytes().to_vec(), dir)?, options)
+}
+
+fn load(mut parser: Parser, options: &LoadOptions) -> Result<LoadedScene, Error> {
+    let start = Instant::now();
+    let diagnostics = parser.diagnostics().clone();
+    let collected = collect::collect(&mut parser, &diagnostics)?;
+    let ctx = context::Context {
+        range: options.range,
+        strict: options.strict,
+        warnings: &diagnostics,
+        resolver: parser.resolver(),
+    };
+    let mut loaded = build::build(&ctx, &collected, options, parser.inventory().clone())?;
+    loaded.hash = hash(&parser);
+    loaded.diagnostics = diagnostics.clone();
+    loaded.seconds[0] = start.elapsed().as_secs_f64() - loaded.seconds[1];
+    Ok(loaded)
+}
+
+/// Hash of the scene's text files in the order they were read.
+fn hash(parser: &Parser) -> String {
+    let mut hasher = blake3::Hasher::new();
+    for file in parser.sources().files() {
+        hasher.update(&(file.bytes().len() as u64).to_le_bytes());
+        hasher.update(file.bytes());
+    }
+    hasher.finalize().to_hex().to_string()
+}

@@ -1,0 +1,156 @@
+//! `Sampler`, `Integrator` and `Option`.
+
+use super::{
+    collect::{Collected, Declared},
+    context::{Context, refuse},
+};
+use tyndall_integrators::{Equiangular, Settings, pixel::Method};
+use tyndall_pbrt::{EntityKind, Error, OptionValue, ParamSet};
+use tyndall_transport::sampler::SamplerKind;
+
+/// Samples per pixel, their kind and the seed.
+#[derive(Clone, Copy, Debug)]
+pub struct SamplerDescription {
+    /// Points of the first dimensions.
+    pub kind: SamplerKind,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Seed.
+    pub seed: u64,
+}
+
+/// The sampler; pbrt's default is zsobol with 16 samples per pixel.
+pub fn sampler(ctx: &Context<'_>, collected: &Collected) -> Result<SamplerDescription, Error> {
+    let mut found = SamplerDescription { kind: SamplerKind::OwenSobol, spp: 16, seed: 0 };
+    for (key, name, value) in &collected.globals {
+        if key == "seed" {
+            match value {
+                OptionValue::Number(seed) if *seed >= 0.0 && seed.fract() == 0.0 => found.seed = *seed as u64,
+                _ => {
+                    let message = format!("Option \"{}\": expected a whole number >= 0", name.as_str());
+                    return Err(Error::in_file(tyndall_pbrt::ErrorKind::Other(message), "scene"));
+                }
+            }
+        }
+    }
+    let Some(declared) = collected.options.get(&EntityKind::Sampler) else { return Ok(found) };
+    let p = &declared.params;
+    found.kind = match declared.name.as_str() {
+        "zsobol" | "sobol" | "paddedsobol" | "halton" | "pmj02bn" | "stratified" => SamplerKind::OwenSobol,
+        "independent" => SamplerKind::Independent,
+        other => {
+            let hint = "zsobol, sobol, paddedsobol, halton, pmj02bn, stratified or independent";
+            return Err(p.error(format!("sampler \"{other}\" is unknown")).hint(hint));
+        }
+    };
+    for name in ["randomization", "jitter"] {
+        p.ignore(name, "our points are Owen-scrambled");
+    }
+    let spp = if declared.name.as_str() == "stratified" {
+        p.integer("xsamples", 4)?.saturating_mul(p.integer("ysamples", 4)?)
+    } else {
+        p.integer("pixelsamples", 16)?
+    };
+    if spp < 1 {
+        return Err(refuse(p, "pixelsamples", "must be at least 1", spp));
+    }
+    found.spp = spp as u32;
+    if let Some(seed) = p.integer_opt("seed")? {
+        found.seed = u64::from(seed.unsigned_abs());
+    }
+    ctx.finish(p, &["pixelsamples", "seed", "xsamples", "ysamples", "jitter", "randomization"]);
+    Ok(found)
+}
+
+/// The integrator.
+#[derive(Clone, Debug)]
+pub struct IntegratorDescription {
+    /// Its name in the scene.
+    pub name: String,
+    /// What runs.
+    pub method: Method,
+    /// Its switches.
+    pub settings: Settings,
+    /// Media are left out, as pbrt's `path` does.
+    pub ignores_media: bool,
+}
+
+/// What an integrator's name stands for: the method, and whether media are left out.
+pub fn integrator_named(name: &str) -> Option<(Method, bool)> {
+    match name {
+        "volpath" | "simplevolpath" => Some((Method::Volpath, false)),
+        "path" | "simplepath" => Some((Method::Volpath, true)),
+        "analog" => Some((Method::Analog, false)),
+        _ => None,
+    }
+}
+
+/// Names for messages.
+pub const INTEGRATORS: &str = "volpath, analog, path (leaves media out), simplepath and simplevolpath";
+
+const KNOWN: [&str; 15] = [
+    "maxdepth", "regularize", "lightsampler", "equiangular", "lightsampling", "exacttransmittance", "survival",
+    "coneclipping", "roulettedepth", "roulettethreshold", "samplebsdf", "samplelights", "visualizestrategies",
+    "visualizeweights", "russianroulette",
+];
+
+/// The integrator of the scene; pbrt's default is volpath.
+pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<IntegratorDescription, Error> {
+    let Some(declared) = declared else {
+        let (name, settings) = ("volpath".into(), Settings::default());
+        return Ok(IntegratorDescription { name, method: Method::Volpath, settings, ignores_media: false });
+    };
+    let p = &declared.params;
+    let name = declared.name.as_str();
+    let Some((method, ignores_media)) = integrator_named(name) else {
+        let hint = format!("this version has {INTEGRATORS}; --integrator volpath overrides the scene");
+        return Err(p.error(format!("integrator \"{name}\" is not supported")).hint(hint));
+    };
+    if name.starts_with("simple") {
+        ctx.warnings.note(p.place(), format!("integrator \"{name}\" runs as volpath: the same mean with less noise"));
+    }
+    for name in ["lightsampler", "samplebsdf", "samplelights"] {
+        p.ignore(name, "lights are chosen by power, directions by both techniques");
+    }
+    let settings = settings(p)?;
+    ctx.finish(p, &KNOWN);
+    Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media })
+}
+
+fn settings(p: &ParamSet) -> Result<Settings, Error> {
+    let default = Settings::default();
+    let depth = p.integer("maxdepth", 5)?;
+    let equiangular = match p.string("equiangular", "auto")?.as_str() {
+        "auto" => Equiangular::Auto,
+        "off" => Equiangular::Off,
+        "always" => Equiangular::Always,
+        other => {
+            return Err(refuse(p, "equiangular", "must be \"auto\", \"off\" or \"always\"", format!("\"{other}\"")));
+        }
+    };
+    let threshold = p.float("roulettethreshold", default.roulette_threshold)?;
+    if !(threshold > 0.0 && threshold.is_finite()) {
+        return Err(refuse(p, "roulettethreshold", "must be > 0", threshold));
+    }
+    let roulette = match p.integer_opt("roulettedepth")? {
+        None => default.roulette_depth,
+        Some(depth) => unlimited(depth),
+    };
+    Ok(Settings {
+        max_depth: unlimited(depth),
+        regularize: p.bool("regularize", false)?,
+        light_sampling: p.bool("lightsampling", default.light_sampling)?,
+        exact_transmittance: p.bool("exacttransmittance", default.exact_transmittance)?,
+        survival: p.bool("survival", default.survival)?,
+        equiangular,
+        cone_clipping: p.bool("coneclipping", default.cone_clipping)?,
+        roulette_depth: if p.bool("russianroulette", true)? { roulette } else { u32::MAX },
+        roulette_threshold: threshold,
+        ..default
+    })
+}
+
+/// Negative stands for no limit.
+pub fn unlimited(depth: i32) -> u32 {
+    u32::try_from(depth).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,128 @@
+//! Cameras: a point of the film and of the lens to a ray of the scene.
+
+mod orthographic;
+mod perspective;
+
+pub use orthographic::Orthographic;
+pub use perspective::Perspective;
+
+use crate::{TransportError, error::check};
+use tyndall_base::{Vec2, vec::vec2, warp};
+use tyndall_geometry::{Ray, Transform};
+
+/// Where on the film (pixels), on the lens (unit square) and within the shutter (0 to 1) a ray starts.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraSample {
+    /// Film position in pixels; the centre of the first pixel is (0.5, 0.5).
+    pub film: Vec2,
+    /// Point of the unit square that is warped to the lens.
+    pub lens: Vec2,
+    /// Shutter time as a fraction of the shutter interval.
+    pub time: f32,
+}
+
+/// What all projective cameras share.
+#[derive(Clone, Debug)]
+pub struct Projective {
+    /// Full resolution in pixels.
+    pub resolution: [u32; 2],
+    /// The film's rectangle on the plane one unit before the camera: `[x0, x1, y0, y1]`, y upwards.
+    pub screen: [f32; 4],
+    /// Radius of the thin lens \[m\]; 0 is a pinhole.
+    pub lens_radius: f32,
+    /// Distance of the plane in focus \[m\].
+    pub focal_distance: f32,
+    /// Camera space (x right, y up, z forward) to the scene.
+    pub to_world: Transform,
+}
+
+impl Projective {
+    /// pbrt's default window: the shorter side spans -1 to 1; `frame_aspect` overrides width over height.
+    pub fn default_screen(resolution: [u32; 2], frame_aspect: Option<f32>) -> [f32; 4] {
+        let aspect = frame_aspect.unwrap_or(resolution[0] as f32 / resolution[1] as f32);
+        if aspect > 1.0 {
+            [-aspect, aspect, -1.0, 1.0]
+        } else {
+            [-1.0, 1.0, -1.0 / aspect, 1.0 / aspect]
+        }
+    }
+
+    /// Refuses empty films and windows, negative lenses and focal planes behind the camera.
+    pub fn validated(self) -> Result<Self, TransportError> {
+        let [w, h] = self.resolution;
+        check(w > 0 && h > 0, "film resolution", "at least 1 x 1 pixels", f64::from(w.min(h)))?;
+        let [x0, x1, y0, y1] = self.screen;
+        check(x0 < x1, "screenwindow", "x0 < x1", f64::from(x1 - x0))?;
+        check(y0 < y1, "screenwindow", "y0 < y1", f64::from(y1 - y0))?;
+        check(self.lens_radius >= 0.0, "lensradius", ">= 0 m", f64::from(self.lens_radius))?;
+        check(self.focal_distance > 0.0, "focaldistance", "> 0 m", f64::from(self.focal_distance))?;
+        Ok(self)
+    }
+
+    /// Pixels to the window; the film's first row is the top.
+    #[inline(always)]
+    fn to_screen(&self, film: Vec2) -> Vec2 {
+        let [x0, x1, y0, y1] = self.screen;
+        let (u, v) = (film.x / self.resolution[0] as f32, film.y / self.resolution[1] as f32);
+        vec2(x0 + u * (x1 - x0), y1 - v * (y1 - y0))
+    }
+
+    #[inline(always)]
+    fn lens_point(&self, lens: Vec2) -> Vec2 {
+        warp::sample_concentric_disk([lens.x, lens.y]) * self.lens_radius
+    }
+}
+
+/// Any camera.
+#[derive(Clone, Debug)]
+pub enum Camera {
+    /// Central projection.
+    Perspective(Perspective),
+    /// Parallel projection.
+    Orthographic(Orthographic),
+}
+
+impl Camera {
+    /// The ray through `sample`, with unit direction.
+    #[inline]
+    pub fn sample_ray(&self, sample: &CameraSample) -> Ray {
+        match self {
+            Self::Perspective(c) => c.sample_ray(sample),
+            Self::Orthographic(c) => c.sample_ray(sample),
+        }
+    }
+
+    /// Film resolution in pixels.
+    pub fn resolution(&self) -> [u32; 2] {
+        self.projective().resolution
+    }
+
+    /// Camera space to the scene.
+    pub fn to_world(&self) -> &Transform {
+        &self.projective().to_world
+    }
+
+    /// The same camera for another number of pixels; a window that was the default one follows the new aspect.
+    pub fn resized(mut self, resolution: [u32; 2]) -> Self {
+        let p = self.projective_mut();
+        if p.screen == Projective::default_screen(p.resolution, None) {
+            p.screen = Projective::default_screen(resolution, None);
+        }
+        p.resolution = resolution;
+        self
+    }
+
+    fn projective(&self) -> &Projective {
+        match self {
+            Self::Perspective(c) => &c.projective,
+            Self::Orthographic(c) => &c.projective,
+        }
+    }
+
+    fn projective_mut(&mut self) -> &mut Projective {
+        match self {
+            Self::Perspective(c) => &mut c.projective,
+            Self::Orthographic(c) => &mut c.projective,
+        }
+    }
+}

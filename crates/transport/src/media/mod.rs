@@ -1,0 +1,46 @@
+//! Participating media: coefficients \[1/m\] per wavelength, emission and phase function.
+
+mod homogeneous;
+
+pub use homogeneous::Homogeneous;
+
+use tyndall_scatter::phase::PhaseFunction;
+use tyndall_spectral::{Spectrum, Wavelengths};
+
+/// What a medium does to light at one point, at the wavelengths of a path.
+#[derive(Clone, Copy, Debug)]
+pub struct MediumProperties<'m, const N: usize> {
+    /// Absorption coefficient \[1/m\].
+    pub sigma_a: Spectrum<N>,
+    /// Scattering coefficient \[1/m\].
+    pub sigma_s: Spectrum<N>,
+    /// Source radiance \[W m^-2 sr^-1 nm^-1\]: the medium emits `sigma_a le` per metre.
+    pub le: Spectrum<N>,
+    /// Distribution of scattered directions.
+    pub phase: &'m PhaseFunction,
+}
+
+impl<const N: usize> MediumProperties<'_, N> {
+    /// Extinction coefficient \[1/m\].
+    #[inline(always)]
+    pub fn sigma_t(&self) -> Spectrum<N> {
+        self.sigma_a + self.sigma_s
+    }
+}
+
+/// Any medium.
+#[derive(Clone, Debug)]
+pub enum Medium {
+    /// The same everywhere.
+    Homogeneous(Homogeneous),
+}
+
+impl Medium {
+    /// The properties, when they do not depend on the point.
+    #[inline(always)]
+    pub fn homogeneous<const N: usize>(&self, w: &Wavelengths<N>) -> MediumProperties<'_, N> {
+        match self {
+            Self::Homogeneous(m) => m.at(w),
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! The scene: geometry and what is bound to it.
+
+use crate::{
+    camera::Camera,
+    ids::{LightId, MaterialId, MediumId},
+    light::LightSet,
+    material::Material,
+    media::Medium,
+};
+use tyndall_base::Vec3;
+use tyndall_geometry::{Accel, Hit, Ray, SurfacePoint};
+
+/// What a shape group carries besides its geometry.
+#[derive(Clone, Debug)]
+pub struct ShapeBinding {
+    /// Its material, or [`MaterialId::INTERFACE`].
+    pub material: MaterialId,
+    /// Media inside (against the normal) and outside, where the shape names two different ones; `None` keeps the
+    /// ray's medium, as in pbrt.
+    pub boundary: Option<Boundary>,
+    /// The light of its first primitive, if it emits; one light a primitive, in order.
+    pub first_light: Option<LightId>,
+}
+
+/// The media on the two sides of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Boundary {
+    /// On the side away from the normal.
+    pub inside: MediumId,
+    /// On the side of the normal.
+    pub outside: MediumId,
+}
+
+/// Everything that a path needs. Immutable while rendering.
+#[derive(Debug)]
+pub struct Scene {
+    /// Geometry.
+    pub accel: Accel,
+    /// One entry per shape group of `accel`.
+    pub shapes: Vec<ShapeBinding>,
+    /// Materials.
+    pub materials: Vec<Material>,
+    /// Media.
+    pub media: Vec<Medium>,
+    /// Lights.
+    pub lights: LightSet,
+    /// The camera.
+    pub camera: Camera,
+    /// The medium that the camera is in.
+    pub camera_medium: MediumId,
+}
+
+/// A surface point as a path meets it.
+#[derive(Clone, Copy, Debug)]
+pub struct Interaction<'s> {
+    /// Geometry of the point.
+    pub surface: SurfacePoint,
+    /// What is bound to the shape.
+    pub binding: &'s ShapeBinding,
+    /// The light of the primitive, if it emits.
+    pub light: Option<LightId>,
+}
+
+impl Scene {
+    /// The nearest surface along `ray`.
+    #[inline(always)]
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.accel.intersect(ray)
+    }
+
+    /// What stands at `hit`.
+    #[inline(always)]
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> Interaction<'_> {
+        let binding = &self.shapes[hit.shape as usize];
+        let light = binding.first_light.map(|first| LightId(first.0 + hit.prim));
+        Interaction { surface: self.accel.surface(ray, hit), binding, light }
+    }
+
+    /// The medium `id`, or `None` for vacuum.
+    #[inline(always)]
+    pub fn medium(&self, id: MediumId) -> Option<&Medium> {
+        if id.is_vacuum() { None } else { Some(&self.media[id.index()]) }
+    }
+}
+
+impl Interaction<'_> {
+    /// The medium that a ray leaving along `d` travels in; `current` is the one it came in.
+    #[inline(always)]
+    pub fn medium_towards(&self, d: Vec3, current: MediumId) -> MediumId {
+        match self.binding.boundary {
+            None => current,
+            Some(b) if d.dot(self.surface.ng) > 0.0 => b.outside,
+            Some(b) => b.inside,
+        }
+    }
+}
