@@ -2,6 +2,7 @@
 //!
 //! Build an [`Accel`] from [`ShapeGroup`]s, ask it for the nearest [`Hit`] or for occlusion, and work out the
 //! [`SurfacePoint`] of a hit when it is needed. Rays leave surfaces by [`SurfacePoint::spawn`].
+#![allow(clippy::neg_cmp_op_on_partial_ord, reason = "a negated comparison also refuses NaN")]
 
 pub mod accel;
 pub mod bounds;

@@ -75,10 +75,10 @@ impl Transform {
     pub fn rotate(degrees: f64, axis: [f64; 3]) -> Result<Self, GeometryError> {
         let a = dvec3(axis[0], axis[1], axis[2]);
         let length = a.length();
-        if !(length > 0.0 && length.is_finite()) || !degrees.is_finite() {
+        if !(length > 0.0 && length.is_finite() && degrees.is_finite()) {
             return Err(GeometryError::BadParameter {
-                parameter: "rotation axis",
-                expected: "a vector of finite length > 0",
+                parameter: "rotation",
+                expected: "finite degrees and an axis of finite length > 0",
                 got: length,
             });
         }

@@ -408,7 +408,7 @@ impl Output<'_> {
         for (lane, r) in refs.iter().enumerate() {
             for (k, corner) in (self.corners)(r).into_iter().enumerate() {
                 for axis in 0..3 {
-                    block.corner[3 * k + axis][lane] = corner[axis];
+                    block.corner[k][axis][lane] = corner[axis];
                 }
             }
             block.prim[lane] = r.prim;

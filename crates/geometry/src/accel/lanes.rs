@@ -27,11 +27,8 @@ pub(crate) trait Lanes: Copy {
     fn mul4(self, a: Self::F4, b: Self::F4) -> Self::F4;
     fn min4(self, a: Self::F4, b: Self::F4) -> Self::F4;
     fn max4(self, a: Self::F4, b: Self::F4) -> Self::F4;
-    fn abs4(self, a: Self::F4) -> Self::F4;
-    /// `a b + c`, rounded once.
-    fn fmadd4(self, a: Self::F4, b: Self::F4, c: Self::F4) -> Self::F4;
-    /// `a b - c`, rounded once.
-    fn fmsub4(self, a: Self::F4, b: Self::F4, c: Self::F4) -> Self::F4;
+    /// `c - a b`, rounded once.
+    fn fnmadd4(self, a: Self::F4, b: Self::F4, c: Self::F4) -> Self::F4;
     /// Bit i: `a[i] <= b[i]`.
     fn le4(self, a: Self::F4, b: Self::F4) -> u32;
 
@@ -132,16 +129,8 @@ impl Lanes for Portable {
         zip(a, b, greater)
     }
     #[inline(always)]
-    fn abs4(self, a: [f32; 4]) -> [f32; 4] {
-        a.map(f32::abs)
-    }
-    #[inline(always)]
-    fn fmadd4(self, a: [f32; 4], b: [f32; 4], c: [f32; 4]) -> [f32; 4] {
-        std::array::from_fn(|i| a[i].mul_add(b[i], c[i]))
-    }
-    #[inline(always)]
-    fn fmsub4(self, a: [f32; 4], b: [f32; 4], c: [f32; 4]) -> [f32; 4] {
-        std::array::from_fn(|i| a[i].mul_add(b[i], -c[i]))
+    fn fnmadd4(self, a: [f32; 4], b: [f32; 4], c: [f32; 4]) -> [f32; 4] {
+        std::array::from_fn(|i| (-a[i]).mul_add(b[i], c[i]))
     }
     #[inline(always)]
     fn le4(self, a: [f32; 4], b: [f32; 4]) -> u32 {

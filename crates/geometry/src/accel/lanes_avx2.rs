@@ -52,9 +52,7 @@ impl Lanes for Avx2 {
         mul4(a: __m128, b: __m128) -> __m128 { _mm_mul_ps(a, b) }
         min4(a: __m128, b: __m128) -> __m128 { _mm_min_ps(a, b) }
         max4(a: __m128, b: __m128) -> __m128 { _mm_max_ps(a, b) }
-        abs4(a: __m128) -> __m128 { _mm_andnot_ps(_mm_set1_ps(-0.0), a) }
-        fmadd4(a: __m128, b: __m128, c: __m128) -> __m128 { _mm_fmadd_ps(a, b, c) }
-        fmsub4(a: __m128, b: __m128, c: __m128) -> __m128 { _mm_fmsub_ps(a, b, c) }
+        fnmadd4(a: __m128, b: __m128, c: __m128) -> __m128 { _mm_fnmadd_ps(a, b, c) }
         le4(a: __m128, b: __m128) -> u32 { _mm_movemask_ps(_mm_cmple_ps(a, b)) as u32 }
     }
 

@@ -84,11 +84,11 @@ impl Node {
     }
 }
 
-/// Four triangles: corner coordinates by lane (ax ay az bx by bz cx cy cz), and whose they are.
+/// Four triangles: coordinates by corner, axis and lane, and whose they are.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(crate) struct Block {
-    pub corner: [[f32; LANES]; 9],
+    pub corner: [[[f32; LANES]; 3]; 3],
     pub prim: [u32; LANES],
     pub shape: [u32; LANES],
     /// Visibility mask in the low byte (0: the lane is empty), [`Block::SECOND_HALF`] above.
@@ -99,7 +99,7 @@ impl Block {
     /// The lane is the half p11, p01, p10 of a flat patch.
     pub const SECOND_HALF: u32 = 1 << 8;
     pub const EMPTY: Self =
-        Self { corner: [[0.0; LANES]; 9], prim: [0; LANES], shape: [0; LANES], mask: [0; LANES] };
+        Self { corner: [[[0.0; LANES]; 3]; 3], prim: [0; LANES], shape: [0; LANES], mask: [0; LANES] };
 }
 
 /// A primitive that is not a triangle.

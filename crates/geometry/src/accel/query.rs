@@ -27,7 +27,7 @@ impl LocalRay {
     }
 
     /// In the object's space; the direction keeps its scale, so `t` means the same.
-    fn into_object(&self, to_world: &Transform) -> Self {
+    fn in_object(&self, to_world: &Transform) -> Self {
         let to_object = to_world.inverse();
         let (o64, d64) = (to_object.point64(self.o64), to_object.vector64(self.d64));
         Self { o: o64.round().to_array(), d: d64.round().to_array(), o64, d64 }
@@ -162,7 +162,7 @@ pub(crate) fn others<K: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
             Other::Instance(index) => {
                 let accel = query.accel;
                 let placed = &accel.instances[index as usize];
-                let local = ray.into_object(placed.to_world(query.time));
+                let local = ray.in_object(placed.to_world(query.time));
                 k.level::<ANY, F>(&accel.objects[placed.object as usize], &local, query, index)
             }
         };

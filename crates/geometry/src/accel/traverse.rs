@@ -1,10 +1,12 @@
 //! The walk through one level of the tree, generic over the instruction set.
 //!
-//! **No hit is lost at shared edges.** Triangles are tested by the signs of the ray's Pluecker products with their
-//! edges, in `f32`: two triangles that share an edge compute the same product with opposite sign, so a ray cannot slip
-//! between them. Such a product is as good as moving the edge by `c 2^-24 (t + L)`, with `t` the distance, `L` the
-//! edge's length and `c` a small number; boxes are widened by `L 2^-20` when built and by `t 2^-20` during the walk
-//! (a drift of the direction), so a triangle that the edge test would accept is never culled.
+//! **No hit is lost at shared edges and corners** (Woop, Benthin & Wald 2013, "Watertight Ray/Triangle Intersection").
+//! Corners are sheared so that the ray is the z axis; a corner's rounded image is the same for all triangles that share
+//! it. The side on which the ray passes an edge is the sign of a difference of two products, each rounded once: that
+//! sign is right or zero, and zero counts as inside, so the images cover the ray as exactly as the rounded corners do.
+//! A corner's image is off by at most `5 * 2^-24 (t + L)`, with `t` the distance and `L` the triangle's extent; boxes
+//! are wider by `2^-20 L` when built and by `2^-20 t` during the walk (as a drift of the direction), so a triangle that
+//! the edge test would accept is never culled.
 //!
 //! **The distance is exact to `f64`.** Whoever passes the edge test has its `t` worked out in double precision from
 //! the `f32` corners, so two surfaces a millimetre apart are met in the right order from kilometres away.
@@ -13,7 +15,6 @@ use super::lanes::Lanes;
 use super::node::{Block, Bvh, Child, LANES, Node, STACK, WIDTH};
 use super::query::{Kernel, LocalRay, Query, others};
 use crate::dvec::{DVec3, dvec3};
-use crate::shape::inside_padded;
 use crate::{Hit, NO_INSTANCE};
 use std::mem::MaybeUninit;
 
@@ -126,7 +127,7 @@ pub(crate) fn walk<L: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
 ) -> bool {
     let (nodes, blocks): (&[Node], &[Block]) = (&bvh.nodes, &bvh.blocks);
     let slabs = Slabs::new(l, ray);
-    let edges = Edges::new(l, ray);
+    let shear = Shear::new(l, ray);
     let mut stack = Stack::new();
     let mut t_max = l.splat8(query.t_max());
     let mut found = false;
@@ -147,7 +148,7 @@ pub(crate) fn walk<L: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
             } else {
                 // SAFETY: leaves name ranges of blocks that exist.
                 let blocks = unsafe { blocks.get_unchecked(first..first + n) };
-                triangles::<L, ANY, F>(l, blocks, ray, &edges, query, instance)
+                triangles::<L, ANY, F>(l, blocks, ray, &shear, query, instance)
             };
             if hit {
                 if ANY {
@@ -237,46 +238,52 @@ fn prefetch<L: Lanes>(l: L, nodes: &[Node], blocks: &[Block], child: Child) {
     }
 }
 
-/// The ray as the edge test wants it.
-struct Edges<L: Lanes> {
+/// The ray as the edge test wants it: its longest axis is z, and a shear lays it along that axis.
+struct Shear<L: Lanes> {
+    /// The axes that play x, y and z.
+    axis: [usize; 3],
     o: [L::F4; 3],
-    d: [L::F4; 3],
+    /// `d.x / d.z`, `d.y / d.z`.
+    slope: [L::F4; 2],
 }
 
-type V4<L> = [<L as Lanes>::F4; 3];
-
-impl<L: Lanes> Edges<L> {
+impl<L: Lanes> Shear<L> {
     #[inline(always)]
     fn new(l: L, ray: &LocalRay) -> Self {
-        Self { o: ray.o.map(|x| l.splat4(x)), d: ray.d.map(|x| l.splat4(x)) }
+        let [x, y, z] = ray.d.map(f32::abs);
+        let long = if x > y && x > z {
+            0
+        } else if y > z {
+            1
+        } else {
+            2
+        };
+        let axis = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][long];
+        let along = ray.d[axis[2]];
+        let slope = |k: usize| l.splat4(ray.d[axis[k]] / along);
+        Self { axis, o: axis.map(|k| l.splat4(ray.o[k])), slope: [slope(0), slope(1)] }
     }
 
-    /// `d . ((p - q) x (p + q))`: on which side of the edge from q to p the ray passes. Antisymmetric to the bit.
+    /// Corner `k` of the four triangles, as the ray sees it: the ray passes through (0, 0).
     #[inline(always)]
-    fn side(&self, l: L, p: V4<L>, q: V4<L>) -> L::F4 {
-        let e: V4<L> = [l.sub4(p[0], q[0]), l.sub4(p[1], q[1]), l.sub4(p[2], q[2])];
-        let s: V4<L> = [l.add4(p[0], q[0]), l.add4(p[1], q[1]), l.add4(p[2], q[2])];
-        let x = l.fmsub4(e[1], s[2], l.mul4(e[2], s[1]));
-        let y = l.fmsub4(e[2], s[0], l.mul4(e[0], s[2]));
-        let z = l.fmsub4(e[0], s[1], l.mul4(e[1], s[0]));
-        l.fmadd4(x, self.d[0], l.fmadd4(y, self.d[1], l.mul4(z, self.d[2])))
+    fn corner(&self, l: L, block: &Block, k: usize) -> [L::F4; 2] {
+        // the axes are 0, 1, 2 by construction
+        let x = |i: usize| l.sub4(l.load4(&block.corner[k][self.axis[i].min(2)]), self.o[i]);
+        let z = x(2);
+        [l.fnmadd4(self.slope[0], z, x(0)), l.fnmadd4(self.slope[1], z, x(1))]
     }
 
     /// Lanes whose triangle the line passes through, and the weights of the corners b and c with their common divisor.
     #[inline(always)]
     fn test(&self, l: L, block: &Block) -> (u32, L::F4, L::F4, L::F4) {
-        let corner = |k: usize| -> V4<L> {
-            let x = |i: usize| l.sub4(l.load4(&block.corner[3 * k + i]), self.o[i]);
-            [x(0), x(1), x(2)]
-        };
-        let (a, b, c) = (corner(0), corner(1), corner(2));
-        let (u, v, w) = (self.side(l, c, a), self.side(l, a, b), self.side(l, b, c));
-        let sum = l.add4(l.add4(u, v), w);
-        let tolerance = l.mul4(l.splat4(f32::EPSILON), l.abs4(sum));
-        let least = l.min4(u, l.min4(v, w));
-        let most = l.max4(u, l.max4(v, w));
-        let front = l.le4(l.sub4(l.splat4(0.0), tolerance), least);
-        (front | l.le4(most, tolerance), u, v, sum)
+        let (a, b, c) = (self.corner(l, block, 0), self.corner(l, block, 1), self.corner(l, block, 2));
+        // no fused multiply-add here: two rounded products compare like the exact ones or are equal
+        let side = |p: [L::F4; 2], q: [L::F4; 2]| l.sub4(l.mul4(p[0], q[1]), l.mul4(p[1], q[0]));
+        let (u, v, w) = (side(c, a), side(a, b), side(b, c));
+        let zero = l.splat4(0.0);
+        let front = l.le4(zero, l.min4(u, l.min4(v, w)));
+        let back = l.le4(l.max4(u, l.max4(v, w)), zero);
+        (front | back, u, v, l.add4(l.add4(u, v), w))
     }
 }
 
@@ -285,13 +292,13 @@ fn triangles<L: Lanes, const ANY: bool, F: FnMut(&Hit) -> bool>(
     l: L,
     blocks: &[Block],
     ray: &LocalRay,
-    edges: &Edges<L>,
+    shear: &Shear<L>,
     query: &mut Query<'_, F>,
     instance: u32,
 ) -> bool {
     let mut found = false;
     for block in blocks {
-        let (mut lanes, u, v, sum) = edges.test(l, block);
+        let (mut lanes, u, v, sum) = shear.test(l, block);
         if lanes == 0 {
             continue;
         }
@@ -319,11 +326,11 @@ fn triangles<L: Lanes, const ANY: bool, F: FnMut(&Hit) -> bool>(
     found
 }
 
-/// The distance to lane `i`'s plane in `f64`; `None` where the ray runs within it or the plane is met elsewhere.
+/// The distance to lane `i`'s plane in `f64`; `None` where the ray runs within it.
 #[inline(always)]
 fn distance(block: &Block, i: usize, ray: &LocalRay) -> Option<f64> {
     let corner = |k: usize| {
-        let x = |j: usize| f64::from(block.corner[3 * k + j][i]);
+        let x = |j: usize| f64::from(block.corner[k][j][i]);
         dvec3(x(0), x(1), x(2))
     };
     let (a, b, c) = (corner(0), corner(1), corner(2));
@@ -331,21 +338,30 @@ fn distance(block: &Block, i: usize, ray: &LocalRay) -> Option<f64> {
     let facing = n.dot(ray.d64);
     let t = n.dot(a - ray.o64) / facing;
     let magnitude = (n.x * ray.d64.x).abs() + (n.y * ray.d64.y).abs() + (n.z * ray.d64.z).abs();
-    // where the ray nearly runs within the plane the signs of the products are noise
-    if facing.abs() <= magnitude * (1.0 / 1024.0) && !near_triangle(ray.o64 + ray.d64 * t, a, b, c, ray, t) {
-        return None;
-    }
-    Some(t)
+    // where the ray nearly runs within the plane it may meet that far from the triangle it passed through
+    if facing.abs() <= magnitude * (1.0 / 1024.0) { at_triangle(t, a, b, c, ray) } else { Some(t) }
 }
 
-/// Whether `q` is in the triangle's box, up to the error of an edge product.
+/// `t` moved to where the ray is in the triangle's box, up to the error of the edge test. A hit in front stays one, so
+/// a ray cannot leave a closed mesh here; one behind stays behind, so a ray that leaves a surface is not caught by it.
 #[cold]
 #[inline(never)]
-fn near_triangle(q: DVec3, a: DVec3, b: DVec3, c: DVec3, ray: &LocalRay, t: f64) -> bool {
-    let (lo, hi) = (a.min(b).min(c), a.max(b).max(c));
-    let size = |v: DVec3| v.x.abs().max(v.y.abs()).max(v.z.abs());
-    let pad = f64::from(SLACK) * (size(hi - lo) + t.abs() * size(ray.d64));
-    inside_padded(q, lo, hi, pad)
+fn at_triangle(t: f64, a: DVec3, b: DVec3, c: DVec3, ray: &LocalRay) -> Option<f64> {
+    if !(t > 0.0) {
+        return None;
+    }
+    let (lo, hi) = (a.min(b).min(c).to_array(), a.max(b).max(c).to_array());
+    let (o, d) = (ray.o64.to_array(), ray.d64.to_array());
+    let largest = |f: &dyn Fn(usize) -> f64| f(0).max(f(1)).max(f(2));
+    let reach = largest(&|k| (lo[k] - o[k]).abs().max((hi[k] - o[k]).abs()));
+    let pad = f64::from(SLACK) * (reach + largest(&|k| hi[k] - lo[k]));
+    let (mut near, mut far) = (0.0f64, f64::INFINITY);
+    for k in 0..3 {
+        let (x0, x1) = ((lo[k] - pad - o[k]) / d[k], (hi[k] + pad - o[k]) / d[k]);
+        // a NaN (0 / 0) cannot arise: the pad keeps the planes off the origin unless it is beyond them
+        (near, far) = (near.max(x0.min(x1)), far.min(x0.max(x1)));
+    }
+    (near <= far).then(|| t.clamp(near, far))
 }
 
 /// What a hit outside every instance carries.

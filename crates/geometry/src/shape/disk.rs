@@ -3,8 +3,10 @@
 
 use super::{LocalSurface, NOISE, PrimHit, ShapeGroup, any_tangents, check, sphere::azimuth};
 use crate::dvec::{DVec3, dvec3};
-use crate::{Bounds3, GeometryError, Transform};
+use crate::{Bounds3, GeometryError, ShapeSample, Transform};
 use std::f64::consts::PI;
+use tyndall_base::math::f64::sin_cos;
+use tyndall_base::warp::sample_concentric_disk;
 
 /// A disk in the plane `z = height` of its own space.
 #[derive(Clone, Debug)]
@@ -97,5 +99,32 @@ impl Disk {
             if exact(k) { 0.0 } else { n + NOISE * self.radius * (m[k][0].abs() + m[k][1].abs()) }
         };
         dvec3(pick(0, noise.x), pick(1, noise.y), pick(2, noise.z))
+    }
+}
+
+impl Disk {
+    /// Area in the world \[m^2\]; the map stretches a plane evenly.
+    pub(crate) fn area(&self) -> f64 {
+        let ring = self.radius * self.radius - self.inner_radius * self.inner_radius;
+        0.5 * self.phi_max * ring * self.stretch()
+    }
+
+    fn stretch(&self) -> f64 {
+        let edge = |x, y| self.to_world.vector64(dvec3(x, y, 0.0));
+        edge(1.0, 0.0).cross(edge(0.0, 1.0)).length()
+    }
+
+    /// Uniform by area.
+    pub(crate) fn sample_area(&self, u: [f32; 2], group: &ShapeGroup) -> ShapeSample {
+        let (x, y) = if self.is_whole() {
+            let d = sample_concentric_disk(u);
+            (f64::from(d.x) * self.radius, f64::from(d.y) * self.radius)
+        } else {
+            let (inner, outer) = (self.inner_radius * self.inner_radius, self.radius * self.radius);
+            let r = (inner + (outer - inner) * f64::from(u[0])).sqrt();
+            let (sin, cos) = sin_cos(self.phi_max * f64::from(u[1]));
+            (r * cos, r * sin)
+        };
+        self.local_at(x, y, group).sampled(1.0 / self.area())
     }
 }

@@ -4,6 +4,7 @@
 
 pub mod bilinear;
 pub mod disk;
+mod light;
 
 pub mod sphere;
 pub mod triangle;
@@ -13,7 +14,7 @@ pub use disk::Disk;
 pub use sphere::Sphere;
 pub use triangle::TriangleMesh;
 
-use crate::dvec::{DVec3, dvec3};
+use crate::dvec::DVec3;
 use crate::error::{GeometryError, Place};
 use crate::{Bounds3, Frame};
 use tyndall_base::Vec3;
@@ -202,12 +203,4 @@ pub(crate) fn quadratic_half(a: f64, h: f64, discriminant: f64, c: f64) -> Optio
 #[inline]
 pub(crate) fn lerp(t: f64, a: DVec3, b: DVec3) -> DVec3 {
     a * (1.0 - t) + b * t
-}
-
-/// The least squares "how far out of the box" used to refuse hits that grazing arithmetic invented.
-#[inline]
-pub(crate) fn inside_padded(q: DVec3, lo: DVec3, hi: DVec3, pad: f64) -> bool {
-    let pad = dvec3(pad, pad, pad);
-    let (a, b) = (q - lo + pad, hi - q + pad);
-    a.x >= 0.0 && a.y >= 0.0 && a.z >= 0.0 && b.x >= 0.0 && b.y >= 0.0 && b.z >= 0.0
 }

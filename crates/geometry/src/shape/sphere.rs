@@ -5,11 +5,13 @@
 //! not cancel for distant or small spheres (Haines, Guenther & Akenine-Moeller 2019, "Precision improvements for
 //! ray/sphere intersection").
 
+use super::light::gauss;
 use super::{LocalSurface, NOISE, PrimHit, ShapeGroup, any_tangents, check, quadratic_half};
 use crate::dvec::{DVec3, dvec3};
-use crate::{Bounds3, GeometryError, Transform};
+use crate::{Bounds3, GeometryError, ShapeSample, Transform};
 use std::f64::consts::PI;
-use tyndall_base::math::f64::{acos, atan2};
+use tyndall_base::Vec3;
+use tyndall_base::math::f64::{acos, atan2, sin_cos};
 
 /// A sphere about the origin of its own space, cut at two heights and an angle.
 #[derive(Clone, Debug)]
@@ -92,7 +94,7 @@ impl Sphere {
             }
         };
         let e = dvec3(reach(0), reach(1), reach(2));
-        Bounds3::new((centre - e).round(), (centre + e).round()).padded(tyndall_base::Vec3::ZERO)
+        Bounds3::new((centre - e).round(), (centre + e).round()).padded(Vec3::ZERO)
     }
 
     /// The nearest point along `o + t d` (world), `0 < t <= t_max`.
@@ -167,4 +169,109 @@ impl Sphere {
 pub(crate) fn azimuth(p: DVec3) -> f64 {
     let phi = atan2(p.y, p.x);
     if phi < 0.0 { phi + 2.0 * PI } else { phi }
+}
+
+/// The cone of directions in which a whole sphere is seen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cone {
+    reference: DVec3,
+    centre: DVec3,
+    radius: f64,
+    distance: f64,
+    /// `1 - cos(theta_max)`, without cancellation for distant spheres.
+    one_minus_cos: f64,
+}
+
+impl Cone {
+    /// Density per steradian, uniform.
+    pub(crate) fn pdf(&self) -> f64 {
+        1.0 / (2.0 * PI * self.one_minus_cos)
+    }
+}
+
+/// Sampling.
+impl Sphere {
+    /// The cone from an outside point; `None` from inside, for parts and for ellipsoids.
+    pub(crate) fn cone_from(&self, reference: DVec3) -> Option<Cone> {
+        let radius = self.world_radius().filter(|_| self.is_whole())?;
+        let centre = self.to_world.point64(DVec3::default());
+        let distance = (centre - reference).length();
+        let sin2 = (radius / distance) * (radius / distance);
+        // just above the surface half the sphere of directions is right to every digit
+        let cos = (1.0 - sin2).max(0.0).sqrt();
+        (distance > radius).then(|| Cone {
+            reference,
+            centre,
+            radius,
+            distance,
+            one_minus_cos: sin2 / (1.0 + cos),
+        })
+    }
+
+    /// The point in a direction uniform over the cone.
+    pub(crate) fn sample_cone(&self, cone: &Cone, u: [f32; 2], group: &ShapeGroup) -> ShapeSample {
+        let off = f64::from(u[0]) * cone.one_minus_cos;
+        let (cos, sin2) = (1.0 - off, off * (2.0 - off));
+        let axis = (cone.centre - cone.reference) * (1.0 / cone.distance);
+        let (x, y) = orthonormal(axis);
+        let (sin_phi, cos_phi) = sin_cos(2.0 * PI * f64::from(u[1]));
+        let w = axis * cos + (x * cos_phi + y * sin_phi) * sin2.sqrt();
+        let inside = cone.radius * cone.radius - cone.distance * cone.distance * sin2;
+        let t = cone.distance * cos - inside.max(0.0).sqrt();
+        let q = self.to_world.inverse().point64(cone.reference + w * t);
+        self.local_at(q, group).sampled(cone.pdf())
+    }
+
+    /// Area of the part in its own space.
+    fn object_area(&self) -> f64 {
+        self.phi_max * self.radius * (self.z_max - self.z_min)
+    }
+
+    /// World area per object area at the unit object normal `n`: `|det M| |M^-T n|`.
+    fn stretch(&self, n: DVec3) -> f64 {
+        let axis = |x, y, z| self.to_world.vector64(dvec3(x, y, z));
+        let det = axis(1.0, 0.0, 0.0).dot(axis(0.0, 1.0, 0.0).cross(axis(0.0, 0.0, 1.0)));
+        det.abs() * self.to_world.normal64(n).length()
+    }
+
+    /// The point at height and azimuth given by fractions; equal fractions have equal object area (Archimedes).
+    fn at_fractions(&self, fz: f64, fphi: f64) -> DVec3 {
+        let z = self.z_min + (self.z_max - self.z_min) * fz;
+        let (sin, cos) = sin_cos(self.phi_max * fphi);
+        let r = (self.radius * self.radius - z * z).max(0.0).sqrt();
+        dvec3(r * cos, r * sin, z)
+    }
+
+    /// Area in the world \[m^2\]: closed form under similarities, quadrature on 16 x 16 panels otherwise.
+    pub(crate) fn area(&self) -> f64 {
+        if let Some(radius) = self.world_radius() {
+            return self.object_area() * (radius / self.radius) * (radius / self.radius);
+        }
+        let stretch = |a, b| self.stretch(self.at_fractions(a, b) * (1.0 / self.radius));
+        let panels = |f: &dyn Fn(f64) -> f64| {
+            (0..16).map(|k| gauss(|x| f((f64::from(k) + x) / 16.0)) / 16.0).sum::<f64>()
+        };
+        self.object_area() * panels(&|a| panels(&|b| stretch(a, b)))
+    }
+
+    /// Uniform by area in object space.
+    pub(crate) fn sample_area(&self, u: [f32; 2], group: &ShapeGroup) -> ShapeSample {
+        let q = self.at_fractions(1.0 - f64::from(u[0]), f64::from(u[1]));
+        let pdf = 1.0 / (self.object_area() * self.stretch(q * (1.0 / self.radius)));
+        self.local_at(q, group).sampled(pdf)
+    }
+
+    /// Density per square metre of [`Self::sample_area`] at a world point of the sphere.
+    pub(crate) fn pdf_area(&self, p: Vec3) -> f64 {
+        let q = self.to_world.inverse().point64(p.into());
+        1.0 / (self.object_area() * self.stretch(q.normalize()))
+    }
+}
+
+/// Two unit vectors that complete the unit vector `z` (Duff et al. 2017), in `f64`.
+fn orthonormal(z: DVec3) -> (DVec3, DVec3) {
+    let sign = 1.0f64.copysign(z.z);
+    let a = -1.0 / (sign + z.z);
+    let b = z.x * z.y * a;
+    (dvec3(1.0 + sign * z.x * z.x * a, sign * b, -sign * z.x), dvec3(b, sign + z.y * z.y * a, -z.y))
 }

@@ -1,6 +1,8 @@
 //! Scenes and random numbers for the tests.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod meshes;
+
 use tyndall_base::Vec3;
 use tyndall_base::vec::vec3;
 use tyndall_geometry::{Accel, BuildOptions, Ray, Shape, ShapeGroup, TriangleMesh};

@@ -1,0 +1,141 @@
+//! Prints build times and millions of rays per second for camera, bounce and shadow rays on generated meshes, by the
+//! fast and the portable path: `cargo run --release -p tyndall-geometry --example rays [resolution] [rounds]`.
+
+#[path = "../tests/common/meshes.rs"]
+mod meshes;
+
+use std::time::{Duration, Instant};
+use tyndall_base::Vec3;
+use tyndall_base::vec::vec3;
+use tyndall_geometry::{Accel, BuildOptions, Dispatch, Frame, Ray, Shape, TriangleMesh};
+
+struct Scene {
+    name: &'static str,
+    mesh: TriangleMesh,
+    eye: Vec3,
+    look: Vec3,
+    light: Vec3,
+}
+
+fn scenes() -> Vec<Scene> {
+    let spheres = meshes::sphere_field(40, 4);
+    let cave = meshes::cave(7);
+    let cornell = meshes::cornell_box();
+    vec![
+        Scene {
+            name: "box",
+            mesh: cornell,
+            eye: vec3(278.0, 273.0, -799.0),
+            look: vec3(278.0, 273.0, 0.0),
+            light: vec3(278.0, 540.0, 280.0),
+        },
+        Scene {
+            name: "spheres",
+            mesh: spheres,
+            eye: vec3(-12.0, 9.0, -15.0),
+            look: vec3(20.0, 0.0, 20.0),
+            light: vec3(10.0, 30.0, 10.0),
+        },
+        Scene {
+            name: "cave",
+            mesh: cave,
+            eye: vec3(0.1, 0.0, -0.2),
+            look: vec3(0.3, 0.1, 1.0),
+            light: vec3(0.2, 0.5, 0.1),
+        },
+    ]
+}
+
+/// Fractional parts of multiples of irrationals: an even spread that needs no generator.
+fn spread(i: usize) -> [f32; 2] {
+    let x = i as f64;
+    [(x * 0.754_877_666_246_692_7).fract() as f32, (x * 0.569_840_290_998_053_3).fract() as f32]
+}
+
+/// In tiles of 8 x 8 pixels.
+fn camera_rays(s: &Scene, res: usize) -> Vec<Ray> {
+    let z = (s.look - s.eye).normalize();
+    let frame = Frame::from_xz(vec3(0.0, 1.0, 0.0).cross(z), z);
+    let at = |i: usize| {
+        let (tile, within) = (i / 64, i % 64);
+        let (x, y) = (tile % (res / 8) * 8 + within % 8, tile / (res / 8) * 8 + within / 8);
+        let film = |p: usize| ((p as f32 + 0.5) / res as f32 - 0.5) * 0.72;
+        Ray::new(s.eye, frame.from_local(vec3(film(x), -film(y), 1.0)).normalize())
+    };
+    (0..res * res).map(at).collect()
+}
+
+fn bounce_rays(accel: &Accel, rays: &[Ray]) -> Vec<Ray> {
+    let leave = |(i, ray): (usize, &Ray)| {
+        let hit = accel.intersect(ray)?;
+        let s = accel.surface(ray, &hit);
+        let n = if Accel::is_front(ray, &s) { s.ng } else { -s.ng };
+        let d = tyndall_base::warp::sample_cosine_hemisphere(spread(i));
+        Some(s.spawn(Frame::from_z(n).from_local(d).normalize()))
+    };
+    rays.iter().enumerate().filter_map(leave).collect()
+}
+
+fn shadow_rays(accel: &Accel, rays: &[Ray], light: Vec3, size: f32) -> Vec<Ray> {
+    let aim = |(i, ray): (usize, &Ray)| {
+        let [u, v] = spread(i);
+        let hit = accel.intersect(ray)?;
+        accel.surface(ray, &hit).spawn_to(light + vec3(u - 0.5, 0.0, v - 0.5) * size)
+    };
+    rays.iter().enumerate().filter_map(aim).collect()
+}
+
+/// Time this thread has run: on a busy machine the wall clock measures the others. Falls back to the wall clock.
+fn thread_time(origin: Instant) -> Duration {
+    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let ran = stat.and_then(|s| s.split_whitespace().next()?.parse().ok());
+    ran.map_or_else(|| origin.elapsed(), Duration::from_nanos)
+}
+
+/// Best of the rounds, in millions per second.
+fn rate(rays: &[Ray], rounds: usize, mut f: impl FnMut(&Ray) -> bool) -> (f64, usize) {
+    let (mut best, mut hits) = (0.0f64, 0);
+    for _ in 0..rounds {
+        let origin = Instant::now();
+        let start = thread_time(origin);
+        hits = rays.iter().filter(|r| f(r)).count();
+        best = best.max(rays.len() as f64 / (thread_time(origin) - start).as_secs_f64() / 1e6);
+    }
+    (best, hits)
+}
+
+fn main() {
+    let number =
+        |i: usize, default: usize| std::env::args().nth(i).and_then(|a| a.parse().ok()).unwrap_or(default);
+    let (res, rounds) = (number(1, 256) / 8 * 8, number(2, 5));
+    println!("{res} x {res} rays a set, best of {rounds}; Mrays per second that the thread ran");
+    println!(
+        "{:>8} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}",
+        "scene", "triangles", "path", "build s", "primary", "bounce1", "bounce2", "shadow"
+    );
+    for s in scenes() {
+        for dispatch in [Dispatch::Detect, Dispatch::Portable] {
+            let start = Instant::now();
+            let groups = vec![Shape::Triangles(s.mesh.clone()).into()];
+            let accel = match Accel::build(groups, &[], vec![], &BuildOptions { dispatch }) {
+                Ok(accel) => accel,
+                Err(e) => return eprintln!("{}: {e}", s.name),
+            };
+            let built = start.elapsed().as_secs_f64();
+            let size = accel.bounds().extent().max_component() * 0.05;
+            let primary = camera_rays(&s, res);
+            let bounce1 = bounce_rays(&accel, &primary);
+            let bounce2 = bounce_rays(&accel, &bounce1);
+            let shadow = shadow_rays(&accel, &bounce1, s.light, size);
+            let near = |rays: &[Ray]| rate(rays, rounds, |r| accel.intersect(r).is_some()).0;
+            let (p, b1, b2) = (near(&primary), near(&bounce1), near(&bounce2));
+            let sh = rate(&shadow, rounds, |r| accel.occluded(r)).0;
+            let path = format!("{dispatch:?}");
+            println!(
+                "{:>8} {:>9} {path:>9} {built:>8.3} {p:>8.2} {b1:>8.2} {b2:>8.2} {sh:>8.2}",
+                s.name,
+                accel.stats().triangles
+            );
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Points sampled on shapes as lights, by area and by the solid angle seen from a point.
+//!
+//! Contract: [`ShapeGroup::sample_area`] returns a density per square metre, [`ShapeGroup::sample_solid_angle`] one
+//! per steradian at the reference point, and the `pdf_` twins give the same densities for a point met by a ray. From
+//! where a shape is seen under too small or too large an angle for its solid-angle map, and for shapes that have
+//! none, points come from the area and densities are converted by `r^2 / |cos|`.
+
+use super::{LocalSurface, Shape, ShapeGroup, bilinear::Patch, triangle::cross_edges};
+use crate::dvec::DVec3;
+use crate::surface::{Rounding, ShapeSample};
+use crate::{Hit, SurfacePoint};
+use tyndall_base::warp::{pdf_bilinear, sample_bilinear, sample_uniform_triangle};
+use tyndall_base::{Vec3, vec::vec2};
+
+impl LocalSurface {
+    /// This world-space point as a sample.
+    pub(crate) fn sampled(&self, pdf: f64) -> ShapeSample {
+        let (p, rounding) = Rounding::of(self.p, self.noise);
+        let uv = vec2(self.uv[0] as f32, self.uv[1] as f32);
+        ShapeSample { p, rounding, n: self.ng.round(), uv, pdf: pdf as f32 }
+    }
+}
+
+impl ShapeGroup {
+    /// Area of a primitive in the shape's coordinates \[m^2\].
+    pub fn area(&self, prim: u32) -> f32 {
+        (match &self.shape {
+            Shape::Triangles(m) => 0.5 * cross_edges(m.corners(prim)).length(),
+            Shape::Bilinear(m) => m.patch(prim).area(),
+            Shape::Sphere(s) => s.area(),
+            Shape::Disk(s) => s.area(),
+        }) as f32
+    }
+
+    /// A point of primitive `prim`: uniform on triangles, parallelograms, spheres and disks, nearly so on curved
+    /// patches and stretched spheres.
+    pub fn sample_area(&self, prim: u32, u: [f32; 2]) -> ShapeSample {
+        match &self.shape {
+            Shape::Triangles(m) => {
+                let [_, b1, b2] = sample_uniform_triangle(u).map(f64::from);
+                let area = 0.5 * cross_edges(m.corners(prim)).length();
+                m.local_at(prim, [1.0 - b1 - b2, b1, b2], self).sampled(1.0 / area)
+            }
+            Shape::Bilinear(m) => {
+                let patch = m.patch(prim);
+                let [x, y] = if patch.is_flat() { u } else { sample_bilinear(u, patch.corner_stretch()) };
+                m.local_at(prim, x.into(), y.into(), self).sampled(patch.pdf_area(x, y))
+            }
+            Shape::Sphere(s) => s.sample_area(u, self),
+            Shape::Disk(s) => s.sample_area(u, self),
+        }
+    }
+
+    /// Density per square metre with which [`Self::sample_area`] chooses the point of a sample that
+    /// [`Self::sample_solid_angle`] drew from `reference`.
+    pub fn pdf_area_of(&self, prim: u32, reference: Vec3, sample: &ShapeSample) -> f32 {
+        match &self.shape {
+            Shape::Sphere(s) => s.pdf_area(sample.p) as f32,
+            Shape::Bilinear(m) if !m.patch(prim).is_flat() => {
+                // curved patches are sampled by area only
+                let v = DVec3::from(sample.p) - DVec3::from(reference);
+                let r2 = v.length_squared();
+                (f64::from(sample.pdf) * v.dot(sample.n.into()).abs() / (r2 * r2.sqrt())) as f32
+            }
+            _ => 1.0 / self.area(prim),
+        }
+    }
+
+    /// Density per square metre with which [`Self::sample_area`] chooses the point of `hit`.
+    pub fn pdf_area(&self, hit: &Hit, surface: &SurfacePoint) -> f32 {
+        (match &self.shape {
+            Shape::Triangles(_) | Shape::Disk(_) => 1.0 / f64::from(self.area(hit.prim)),
+            Shape::Bilinear(m) => m.patch(hit.prim).pdf_area(hit.u, hit.v),
+            Shape::Sphere(s) => s.pdf_area(surface.p),
+        }) as f32
+    }
+
+    /// A point of primitive `prim` for lighting `reference`; `None` where the sample is seen edge-on.
+    pub fn sample_solid_angle(&self, prim: u32, reference: Vec3, u: [f32; 2]) -> Option<ShapeSample> {
+        if let Shape::Sphere(s) = &self.shape
+            && let Some(cone) = s.cone_from(reference.into())
+        {
+            return Some(s.sample_cone(&cone, u, self));
+        }
+        let sample = self.sample_area(prim, u);
+        let pdf = per_solid_angle(sample.pdf, reference, sample.p, sample.n)?;
+        Some(ShapeSample { pdf, ..sample })
+    }
+
+    /// Density per steradian with which [`Self::sample_solid_angle`] chooses, from `reference`, the point of `hit`.
+    pub fn pdf_solid_angle(&self, reference: Vec3, hit: &Hit, surface: &SurfacePoint) -> f32 {
+        if let Shape::Sphere(s) = &self.shape
+            && let Some(cone) = s.cone_from(reference.into())
+        {
+            return cone.pdf() as f32;
+        }
+        per_solid_angle(self.pdf_area(hit, surface), reference, surface.p, surface.ng).unwrap_or(0.0)
+    }
+}
+
+impl ShapeGroup {
+    /// [`Self::pdf_solid_angle`] for a point known by its position, normal and density per area, as a
+    /// [`ShapeSample`] from [`Self::sample_area`] has them.
+    pub fn pdf_solid_angle_at(&self, _prim: u32, reference: Vec3, p: Vec3, n: Vec3, pdf_area: f32) -> f32 {
+        if let Shape::Sphere(s) = &self.shape
+            && let Some(cone) = s.cone_from(reference.into())
+        {
+            return cone.pdf() as f32;
+        }
+        per_solid_angle(pdf_area, reference, p, n).unwrap_or(0.0)
+    }
+}
+
+/// A density per area as one per solid angle; `None` where that is infinite or meaningless.
+fn per_solid_angle(pdf: f32, reference: Vec3, p: Vec3, n: Vec3) -> Option<f32> {
+    let v = DVec3::from(p) - DVec3::from(reference);
+    let r2 = v.length_squared();
+    let cosine_r = v.dot(n.into()).abs();
+    let pdf = f64::from(pdf) * r2 * r2.sqrt() / cosine_r;
+    (cosine_r > 0.0 && pdf.is_finite()).then_some(pdf as f32)
+}
+
+impl Patch {
+    /// `|dS/du x dS/dv|` at the corners p00, p10, p01, p11.
+    fn corner_stretch(&self) -> [f32; 4] {
+        [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(u, v)| self.stretch(u, v) as f32)
+    }
+
+    /// Area of the surface per area of the parameters.
+    fn stretch(&self, u: f64, v: f64) -> f64 {
+        self.dpdu(v).cross(self.dpdv(u)).length()
+    }
+
+    fn pdf_area(&self, u: f32, v: f32) -> f64 {
+        let parameters =
+            if self.is_flat() { 1.0 } else { f64::from(pdf_bilinear([u, v], self.corner_stretch())) };
+        parameters / self.stretch(u.into(), v.into())
+    }
+
+    /// Area by a product of five-point Gauss-Legendre rules; exact for flat patches.
+    fn area(&self) -> f64 {
+        gauss(|u| gauss(|v| self.stretch(u, v)))
+    }
+}
+
+/// The integral of a smooth function over [0, 1] by Gauss and Legendre's five-point rule (Abramowitz & Stegun 25.4.30).
+pub(crate) fn gauss(f: impl Fn(f64) -> f64) -> f64 {
+    const X: [f64; 3] = [0.0, 0.538_469_310_105_683_1, 0.906_179_845_938_664];
+    const W: [f64; 3] = [0.568_888_888_888_888_9, 0.478_628_670_499_366_5, 0.236_926_885_056_189_1];
+    let at = |x: f64| f(0.5 + 0.5 * x);
+    0.5 * (W[0] * at(X[0]) + W[1] * (at(X[1]) + at(-X[1])) + W[2] * (at(X[2]) + at(-X[2])))
+}
