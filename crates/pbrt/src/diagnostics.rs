@@ -83,7 +83,12 @@ impl Diagnostics {
 
     /// Appends a warning about the scene as a whole.
     pub fn warn_without_place(&self, message: impl Into<String>) {
-        self.push(Diagnostic { severity: Severity::Warning, place: None, message: message.into(), hint: None });
+        self.push(Diagnostic {
+            severity: Severity::Warning,
+            place: None,
+            message: message.into(),
+            hint: None,
+        });
     }
 
     /// Appends all of `other`, in its order.

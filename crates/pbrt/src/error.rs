@@ -8,9 +8,12 @@ use crate::span::{Location, Place};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The file could not be opened, read or decompressed.
+    /// The file could not be opened or read.
     #[error("cannot read the file: {0}")]
     Io(std::io::Error),
+    /// The gzip data is damaged or cut off.
+    #[error("cannot unpack the gzip file: {0}")]
+    Gzip(std::io::Error),
     /// No byte, or nothing but blanks and comments.
     #[error("the file is empty: expected a pbrt-v4 scene")]
     Empty,
@@ -124,12 +127,14 @@ pub enum ErrorKind {
         limit: usize,
     },
     /// A directive on the wrong side of `WorldBegin`.
-    #[error("{directive}: expected {side} WorldBegin")]
+    #[error("{directive}: expected {side} WorldBegin, got it {other} WorldBegin")]
     WrongBlock {
         /// The directive.
         directive: &'static str,
-        /// `before` or `after`.
+        /// Where it belongs: `before` or `after`.
         side: &'static str,
+        /// Where it is.
+        other: &'static str,
     },
     /// Blocks that do not nest.
     #[error("{directive}: {problem}")]
@@ -257,7 +262,7 @@ impl fmt::Debug for Error {
 impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self.kind() {
-            ErrorKind::Io(e) => Some(e),
+            ErrorKind::Io(e) | ErrorKind::Gzip(e) => Some(e),
             _ => None,
         }
     }

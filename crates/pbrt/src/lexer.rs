@@ -10,6 +10,9 @@ use crate::source::SourceFile;
 use crate::span::{Place, Span};
 use crate::token::{Token, TokenKind};
 
+/// Lists up to this length keep their numbers in double precision.
+const WIDE: usize = 64;
+
 /// A reader of tokens over one file.
 #[derive(Clone, Debug)]
 pub struct Lexer {
@@ -120,49 +123,64 @@ impl Lexer {
         }
     }
 
-    /// Reads numbers up to the closing bracket into `out`; `open` is the opening one. Gives the whole list's span.
-    pub(crate) fn number_list(&mut self, open: Token, out: &mut Numbers) -> Result<Span, ListError> {
-        let source = self.source.clone();
-        let bytes = source.bytes();
-        loop {
-            self.pos = skip_blanks(bytes, self.pos);
-            match bytes.get(self.pos) {
-                Some(b']') => return Ok(self.close_list(open)),
-                None => return Err(self.unclosed_list(open)),
-                Some(_) => {
-                    let (value, end) = number::scan_f64(bytes, self.pos).map_err(|why| self.bad_item(why))?;
-                    out.push(value);
-                    self.pos = end;
-                }
-            }
+    /// Reads numbers up to the closing bracket; `open` is the opening one. Gives the whole list's span too.
+    pub(crate) fn number_list(&mut self, open: Token) -> Result<(Numbers, Span), ListError> {
+        let mut wide = Vec::new();
+        if let Some(span) = self.list(open, &mut wide, WIDE + 1, number::scan_f64)? {
+            return Ok((Numbers::Wide(wide), span));
         }
+        let mut narrow: Vec<f32> = wide.iter().map(|&x| x as f32).collect();
+        let span = self.list(open, &mut narrow, usize::MAX, number::scan_f32)?;
+        Ok((Numbers::Narrow(narrow), span.expect("a list without limit ends at its bracket")))
     }
 
-    /// Reads integers up to the closing bracket; tells of the first one that was written as a float.
+    /// Reads integers up to the closing bracket. Gives the list's span, and the place of the first integer that is
+    /// written as a float.
     pub(crate) fn integer_list(
         &mut self,
         open: Token,
         out: &mut Vec<i32>,
-        float: &mut Option<Span>,
-    ) -> Result<Span, ListError> {
+    ) -> Result<(Span, Option<Span>), ListError> {
+        let mut float = None;
+        let scan = |bytes: &[u8], pos| {
+            let (value, end, is_float) = number::scan_i32(bytes, pos)?;
+            if is_float && float.is_none() {
+                float = Some((pos, end));
+            }
+            Ok((value, end))
+        };
+        let span = self.list(open, out, usize::MAX, scan)?;
+        let span = span.expect("a list without limit ends at its bracket");
+        Ok((span, float.map(|(start, end)| self.span(start, end))))
+    }
+
+    /// Reads items until there are `limit` of them (then none is returned) or the list is closed.
+    #[inline(always)]
+    fn list<T>(
+        &mut self,
+        open: Token,
+        out: &mut Vec<T>,
+        limit: usize,
+        mut scan: impl FnMut(&[u8], usize) -> Result<(T, usize), NumberError>,
+    ) -> Result<Option<Span>, ListError> {
         let source = self.source.clone();
         let bytes = source.bytes();
-        loop {
-            self.pos = skip_blanks(bytes, self.pos);
-            match bytes.get(self.pos) {
-                Some(b']') => return Ok(self.close_list(open)),
+        let mut pos = self.pos;
+        while out.len() < limit {
+            pos = skip_blanks(bytes, pos);
+            self.pos = pos;
+            match bytes.get(pos) {
+                Some(b']') => return Ok(Some(self.close_list(open))),
                 None => return Err(self.unclosed_list(open)),
                 Some(_) => {
-                    let (value, end, is_float) =
-                        number::scan_i32(bytes, self.pos).map_err(|why| self.bad_item(why))?;
-                    if is_float && float.is_none() {
-                        *float = Some(self.span(self.pos, end));
-                    }
+                    let (value, end) = scan(bytes, pos).map_err(|why| self.bad_item(why))?;
                     out.push(value);
-                    self.pos = end;
+                    pos = end;
                 }
             }
         }
+        self.pos = pos;
+        Ok(None)
     }
 
     fn close_list(&mut self, open: Token) -> Span {
@@ -170,7 +188,7 @@ impl Lexer {
         self.span(open.span.offset as usize, self.pos)
     }
 
-    pub(crate) fn unclosed_list(&self, open: Token) -> ListError {
+    fn unclosed_list(&self, open: Token) -> ListError {
         ListError::Syntax(Error::new(ErrorKind::UnclosedList, self.place(open.span)))
     }
 

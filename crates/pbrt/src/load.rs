@@ -71,7 +71,7 @@ fn decompress(bytes: Bytes) -> Result<Bytes, ErrorKind> {
     }
     let mut text = Vec::new();
     let decoder = flate2::read::MultiGzDecoder::new(bytes.as_slice());
-    decoder.take(MAX_BYTES + 1).read_to_end(&mut text).map_err(ErrorKind::Io)?;
+    decoder.take(MAX_BYTES + 1).read_to_end(&mut text).map_err(ErrorKind::Gzip)?;
     check_size(text.len() as u64)?;
     Ok(Bytes::Owned(text))
 }
@@ -79,12 +79,11 @@ fn decompress(bytes: Bytes) -> Result<Bytes, ErrorKind> {
 /// Refuses UTF-16 and anything with a NUL near its start.
 fn check_text(file: &Arc<SourceFile>) -> Result<(), Error> {
     let bytes = file.bytes();
-    let hint = "expected a pbrt-v4 scene file; is this an image, a mesh or a volume?";
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
         return Err(Error::in_file(ErrorKind::Utf16, &**file.name()).hint("save the file as UTF-8"));
     }
     match bytes.iter().take(SNIFF).position(|&b| b == 0) {
-        Some(offset) => Err(binary(file, offset).hint(hint)),
+        Some(offset) => Err(binary(file, offset)),
         None => Ok(()),
     }
 }
@@ -94,6 +93,7 @@ pub(crate) fn binary(file: &Arc<SourceFile>, offset: usize) -> Error {
     let span = Span { file: file.id(), offset: offset as u32, len: 1 };
     let place = Place { source: file.clone(), span };
     Error::new(ErrorKind::Binary { byte: file.bytes()[offset], offset }, place)
+        .hint("is this an image, a mesh or a volume instead of a scene file, or is it damaged?")
 }
 
 /// Where the text starts: after a byte order mark.

@@ -98,13 +98,17 @@ fn scan_exponent(bytes: &[u8], mut i: usize) -> Option<(i32, usize)> {
 /// The `f64` nearest to the decimal, by the exact fast path.
 #[inline(always)]
 fn fast_f64(d: &Decimal) -> Option<f64> {
-    if d.digits > 19 || d.mantissa > 1 << 53 || d.exponent.unsigned_abs() > 22 {
-        return None;
-    }
+    let exact = d.digits <= 19 && d.mantissa <= 1 << 53 && d.exponent.unsigned_abs() <= 22;
+    exact.then(|| scaled(d))
+}
+
+/// `mantissa * 10^exponent` for exponents within +-22, by one rounding of the mantissa and one of the result.
+#[inline(always)]
+fn scaled(d: &Decimal) -> f64 {
     let power = POW10[d.exponent.unsigned_abs() as usize];
     let mantissa = d.mantissa as f64;
     let value = if d.exponent < 0 { mantissa / power } else { mantissa * power };
-    Some(if d.negative { -value } else { value })
+    if d.negative { -value } else { value }
 }
 
 /// Whether an `f64` lies half way between two neighbouring normal `f32`.
@@ -124,6 +128,27 @@ pub(crate) fn scan_f64(bytes: &[u8], pos: usize) -> Result<(f64, usize), NumberE
         return Ok((value, d.end));
     }
     scan_slowly(bytes, pos)
+}
+
+/// Reads one number at `pos` that ends at a delimiter, for lists that keep `f32` only.
+///
+/// A mantissa of up to 19 digits is taken as the nearest `f64` and scaled, which is off by less than two units in the
+/// last place of `f64`: enough to round to the right `f32` anywhere but close to the midpoint of two of them.
+#[inline(always)]
+pub(crate) fn scan_f32(bytes: &[u8], pos: usize) -> Result<(f32, usize), NumberError> {
+    if let Some(d) = scan_decimal(bytes, pos)
+        && bytes.get(d.end).is_none_or(|&b| is_delimiter(b))
+        && d.digits <= 19
+        && d.exponent.unsigned_abs() <= 22
+    {
+        let value = scaled(&d);
+        let to_midpoint = (value.to_bits() & 0x1FFF_FFFF).abs_diff(0x1000_0000);
+        let normal = f64::from(f32::MIN_POSITIVE)..1e38;
+        if to_midpoint > 4 && (d.mantissa == 0 || normal.contains(&value.abs())) {
+            return Ok((value as f32, d.end));
+        }
+    }
+    scan_slowly(bytes, pos).map(|(value, end)| (value as f32, end))
 }
 
 /// Everything that the fast path leaves: long mantissas, large exponents, hexadecimals, midpoints, nonsense.
@@ -279,6 +304,9 @@ mod tests {
         let above = "1.00000005960464477539062500000000000001";
         assert_eq!(above.parse::<f64>().unwrap() as f32, 1.0, "the trap is there");
         assert_eq!(f(above).unwrap() as f32, above.parse::<f32>().unwrap());
+        assert_eq!(scan_f32(above.as_bytes(), 0).unwrap().0, above.parse::<f32>().unwrap());
+        let close = "1.000000059604644776";
+        assert_eq!(scan_f32(close.as_bytes(), 0).unwrap().0, close.parse::<f32>().unwrap());
         let tie = "1.000000059604644775390625";
         assert_eq!(f(tie).unwrap() as f32, 1.0);
     }
@@ -293,6 +321,7 @@ mod tests {
             let std: f64 = word.parse().unwrap();
             prop_assert!((ours - std).abs() <= (std.next_up() - std).abs());
             prop_assert_eq!(ours as f32, word.parse::<f32>().unwrap());
+            prop_assert_eq!(scan_f32(word.as_bytes(), 0), Ok((word.parse::<f32>().unwrap(), word.len())));
         }
     }
 }

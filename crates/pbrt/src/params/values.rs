@@ -4,9 +4,6 @@ use std::borrow::Cow;
 
 use crate::text::Text;
 
-/// Lists up to this length keep every number as `f64`.
-const WIDE: usize = 64;
-
 /// Numbers of a parameter: `f64` for the few of a coefficient, matrix or curve, `f32` for the many of a mesh or grid.
 ///
 /// Either way `x as f32` is the `f32` nearest to the text.
@@ -19,28 +16,6 @@ pub enum Numbers {
 }
 
 impl Numbers {
-    /// No numbers yet.
-    pub fn new() -> Numbers {
-        Numbers::Wide(Vec::new())
-    }
-
-    /// Appends a number.
-    #[inline(always)]
-    pub fn push(&mut self, value: f64) {
-        match self {
-            Numbers::Narrow(v) => v.push(value as f32),
-            Numbers::Wide(v) if v.len() < WIDE => v.push(value),
-            Numbers::Wide(_) => self.narrow(value),
-        }
-    }
-
-    #[cold]
-    fn narrow(&mut self, value: f64) {
-        let mut v = self.to_f32().into_owned();
-        v.push(value as f32);
-        *self = Numbers::Narrow(v);
-    }
-
     /// How many numbers there are.
     pub fn len(&self) -> usize {
         match self {
@@ -81,12 +56,6 @@ impl Numbers {
     /// All numbers in groups of `N`; an incomplete last group is left out.
     pub fn groups<const N: usize>(&self) -> Vec<[f32; N]> {
         self.to_f32().as_chunks::<N>().0.to_vec()
-    }
-}
-
-impl Default for Numbers {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

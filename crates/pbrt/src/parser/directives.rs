@@ -65,19 +65,19 @@ impl Parser {
     }
 
     fn check_side(&self, directive: &'static str, side: Side, span: Span) -> Result<(), Error> {
-        let (side, hint) = match (side, self.blocks.in_world()) {
+        let (side, other, hint) = match (side, self.blocks.in_world()) {
             _ if self.fragment => return Ok(()),
             (Side::Before, true) if directive == "WorldBegin" => {
                 let problem = "the world has begun already".to_string();
                 return Err(Error::new(ErrorKind::Nesting { directive, problem }, self.place(span)));
             }
             (Side::Before, true) => {
-                ("before", "it describes the whole picture; move it to the top of the scene")
+                ("before", "after", "it describes the whole picture; move it to the top of the scene")
             }
-            (Side::After, false) => ("after", "it describes the world; is WorldBegin missing?"),
+            (Side::After, false) => ("after", "before", "it describes the world; is WorldBegin missing?"),
             _ => return Ok(()),
         };
-        Err(Error::new(ErrorKind::WrongBlock { directive, side }, self.place(span)).hint(hint))
+        Err(Error::new(ErrorKind::WrongBlock { directive, side, other }, self.place(span)).hint(hint))
     }
 
     fn entity(&mut self, directive: &'static str, kind: EntityKind, span: Span) -> Result<D, Error> {

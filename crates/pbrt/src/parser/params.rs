@@ -99,30 +99,27 @@ impl Parser {
     }
 
     fn float_values(&mut self, first: Token, name: &str, kind: ParamType) -> Result<(Values, Span), Error> {
-        let mut numbers = Numbers::new();
-        let span = if first.kind == TokenKind::Open {
-            let list = self.lexer.number_list(first, &mut numbers);
-            list.map_err(|e| self.list_error(e, name, wanted(kind)))?
-        } else {
-            self.expect_word(first, name, wanted(kind))?;
-            numbers.push(self.number(name, first)?);
-            first.span
-        };
-        Ok((Values::Numbers(numbers), span))
+        if first.kind == TokenKind::Open {
+            let list = self.lexer.number_list(first);
+            let (numbers, span) = list.map_err(|e| self.list_error(e, name, wanted(kind)))?;
+            return Ok((Values::Numbers(numbers), span));
+        }
+        self.expect_word(first, name, wanted(kind))?;
+        let number = self.number(name, first)?;
+        Ok((Values::Numbers(Numbers::Wide(vec![number])), first.span))
     }
 
     fn integers(&mut self, first: Token, name: &str) -> Result<(Values, Span), Error> {
-        let (mut integers, mut float) = (Vec::new(), None);
-        let span = if first.kind == TokenKind::Open {
-            let list = self.lexer.integer_list(first, &mut integers, &mut float);
+        let mut integers = Vec::new();
+        let (span, float) = if first.kind == TokenKind::Open {
+            let list = self.lexer.integer_list(first, &mut integers);
             list.map_err(|e| self.list_error(e, name, "an integer"))?
         } else {
             self.expect_word(first, name, "an integer")?;
             let scan = number::scan_i32(self.lexer.bytes(first), 0);
             let (value, _, is_float) = scan.map_err(|why| self.bad_number(name, "an integer", why, first))?;
             integers.push(value);
-            float = is_float.then_some(first.span);
-            first.span
+            (first.span, is_float.then_some(first.span))
         };
         if let Some(span) = float {
             self.warn_at(
