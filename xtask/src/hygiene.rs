@@ -1,6 +1,7 @@
 //! What must not be in the repository.
 
-use std::path::Path;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use crate::{Findings, workspace};
 
@@ -8,6 +9,8 @@ use crate::{Findings, workspace};
 const MOST_BYTES: usize = 2 << 20;
 /// Folders that exist on somebody's machine only.
 const MACHINE_FOLDERS: [&str; 4] = ["home", "work", "tmp", "root"];
+/// States, per number table, where it comes from.
+const NOTICE: &str = "NOTICE.md";
 /// Marks of unfinished work, written so that this file does not hold them.
 const MARKERS: [&str; 4] =
     [concat!("to", "do!"), concat!("un", "implemented!"), concat!("FIX", "ME"), concat!("XX", "X")];
@@ -27,8 +30,32 @@ pub fn check() -> Result<Findings, String> {
             }));
         }
     }
+    findings.extend(unsourced(&files)?);
     println!("hygiene: {} files looked at", files.len());
     Ok(findings)
+}
+
+/// Number tables whose folder's `NOTICE.md` does not name them, and so not where they come from.
+fn unsourced(files: &[PathBuf]) -> Result<Findings, String> {
+    let mut findings = Findings::new();
+    for file in files.iter().filter(|file| !file.ends_with(NOTICE)) {
+        let Some(folder) = data_folder(file) else { continue };
+        let notice = workspace::root().join(&folder).join(NOTICE);
+        let notice =
+            std::fs::read_to_string(&notice).map_err(|error| format!("{}: {error}", notice.display()))?;
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        if !notice.contains(&*name) {
+            findings.push(format!("{}: {NOTICE} does not state its source and licence", file.display()));
+        }
+    }
+    Ok(findings)
+}
+
+/// `crates/<name>/data` for a file anywhere inside it.
+fn data_folder(file: &Path) -> Option<PathBuf> {
+    let parts: Vec<&OsStr> = file.iter().take(3).collect();
+    let [crates, _, data] = parts[..] else { return None };
+    (crates == "crates" && data == "data").then(|| parts.iter().collect())
 }
 
 fn too_large(file: &Path, bytes: usize) -> Option<String> {
@@ -93,6 +120,14 @@ mod tests {
             assert!(complaint(&format!("a{marker}")).is_none());
         }
         assert!(complaint(&format!("mktemp {}{}", MARKERS[3], MARKERS[3])).is_none());
+    }
+
+    #[test]
+    fn data_folders_are_known() {
+        let folder = |file: &str| data_folder(Path::new(file));
+        assert_eq!(folder("crates/a/data/b/c.csv"), Some(PathBuf::from("crates/a/data")));
+        assert_eq!(folder("crates/a/tests/data/c.csv"), None);
+        assert_eq!(folder("data/c.csv"), None);
     }
 
     #[test]

@@ -114,14 +114,18 @@ pub fn from_environment() -> Option<Request> {
 
 /// Refuses what each option allows but the whole does not.
 fn check(command: &Command) -> Result<(), clap::Error> {
-    let message = match command {
-        Command::Render(render) => render.check(),
-        Command::Develop(develop) => develop.check(),
-        _ => Ok(()),
+    let (name, checked) = match command {
+        Command::Render(render) => ("render", render.check()),
+        Command::Develop(develop) => ("develop", develop.check()),
+        _ => return Ok(()),
     };
-    message.map_err(|conflict| {
-        let message = format!("{}\n\n  hint: {}", conflict.reason, conflict.hint);
-        Cli::command().error(ErrorKind::ArgumentConflict, message)
+    checked.map_err(|conflict| {
+        let mut program = Cli::command();
+        // only a built command knows the whole of its usage line
+        program.build();
+        let command = program.find_subcommand_mut(name).expect("it was parsed");
+        command
+            .error(ErrorKind::ArgumentConflict, format!("{}\n\n  hint: {}", conflict.reason, conflict.hint))
     })
 }
 

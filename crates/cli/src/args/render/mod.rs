@@ -31,12 +31,13 @@ Writes NAME.exr (linear, with the film's channels), NAME.png (for the eye) and N
 it took, and the error), where NAME is the scene's.",
     after_help = "\
 Examples:
-  tyndall render                                        the built-in box of fog
+  tyndall render                                    the built-in box of fog
   tyndall render fog.pbrt -o fog.exr --spp 256
-  tyndall render fog.pbrt --until rel=1% --time 10m     stop at 1 % error, or after ten minutes
-  tyndall render fog.pbrt --bands 400:700:10            a spectral image with 30 bands
-  tyndall render fog.pbrt --resume                      go on after an interruption, to the same bits
-  tyndall render fog.pbrt --shard 2/8                   the second eighth of the work, for `tyndall merge`"
+  tyndall render fog.pbrt --until rel=1% --time 9m   1 % error or 9 minutes
+  tyndall render fog.pbrt --bands 400:700:10        a spectral image, 30 bands
+  tyndall render fog.pbrt --resume                  go on after an interruption
+  tyndall render fog.pbrt --shard 2/8               one eighth of the work, for
+                                                    `tyndall merge`"
 )]
 pub struct RenderArgs {
     /// The scene, in pbrt-v4's format (may be gzipped) [default: the built-in box of fog]
