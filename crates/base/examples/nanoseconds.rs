@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use tyndall_base::{exact::ExactSum, hash, math, rng::Pcg32, sobol, warp};
+use tyndall_base::{exact::ExactSum, hash, math, rng::Pcg32, sobol, vec::vec3, warp};
 
 /// Best of many runs of `f` over a thousand inputs, in nanoseconds a call.
 fn time<T: Copy, R: Copy>(name: &str, input: impl Fn(u32) -> T, f: impl Fn(T) -> R) {
@@ -62,6 +62,14 @@ fn main() {
     time("concentric disk", square, warp::sample_concentric_disk);
     time("cosine hemisphere", square, warp::sample_cosine_hemisphere);
     time("uniform sphere", square, warp::sample_uniform_sphere);
+    let triangle = [vec3(1.0, 2.0, 3.0), vec3(-2.0, 1.5, 0.5), vec3(0.3, -1.0, 2.0)];
+    time("spherical triangle, whole", square, |u| {
+        warp::SphericalTriangle::new(black_box(triangle)).map(|t| t.sample(u))
+    });
+    time("spherical rectangle, whole", square, |u| {
+        let [p, x, y] = black_box([vec3(-1.0, -1.0, 1.0), vec3(2.0, 0.0, 0.0), vec3(0.0, 2.0, 0.0)]);
+        warp::SphericalRectangle::new(p, x, y).map(|r| r.sample(u))
+    });
     time("exponential", unit, |u| warp::sample_exponential(u, 0.7));
     time("equiangular, whole", square, |[u, v]| {
         let e = warp::Equiangular::new(2.0 + v, 0.5, 0.0, 5.0);

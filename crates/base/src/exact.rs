@@ -58,7 +58,6 @@ impl ExactSum {
             return;
         }
         let magnitude = if shift >= 0 {
-            // two words instead of a 128-bit shift: the mantissa straddles at most one boundary
             u128::from(mantissa) << shift
         } else {
             // halves round up; a shift of 64 or more leaves nothing

@@ -7,6 +7,9 @@ mod direction;
 mod disk;
 mod distance;
 mod planar;
+mod spherical_rectangle;
+mod spherical_triangle;
+mod vec64;
 
 pub use direction::{
     pdf_cosine_hemisphere, pdf_uniform_cone, pdf_uniform_hemisphere, pdf_uniform_sphere,
@@ -20,6 +23,10 @@ pub use planar::{
     invert_bilinear, invert_linear, pdf_bilinear, pdf_linear, sample_bilinear, sample_linear,
     sample_uniform_triangle,
 };
+pub use spherical_rectangle::SphericalRectangle;
+pub use spherical_triangle::SphericalTriangle;
 
+#[cfg(test)]
+mod spherical_tests;
 #[cfg(test)]
 mod tests;
