@@ -35,7 +35,7 @@ pub(crate) fn gauss_2d(f: &dyn Fn(f64, f64) -> f64, x: [f64; 2], y: [f64; 2]) ->
 
 /// Integral of `f` over a rectangle to about `tolerance`, by quartering; edges of jumps are followed ten levels deep.
 ///
-/// The tolerance halves with each level: where `f` is smooth the rule gains far more, and the parts that a line of jumps
+/// Features narrower than a twentieth of the sides may be overlooked. The tolerance halves with each level: where `f` is smooth the rule gains far more, and the parts that a line of jumps
 /// crosses double.
 pub fn integrate_2d(f: &dyn Fn(f64, f64) -> f64, x: [f64; 2], y: [f64; 2], tolerance: f64) -> f64 {
     refine_2d(f, x, y, gauss_2d(f, x, y), tolerance, 10)
