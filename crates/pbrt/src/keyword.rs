@@ -144,9 +144,6 @@ pub(crate) fn hint_for(word: &str) -> Option<String> {
     if let Some((_, hint)) = FORMER.iter().find(|(name, _)| *name == word) {
         return Some((*hint).to_string());
     }
-    if word.len() > 64 {
-        return None; // no word of ours, and edit distances are quadratic
-    }
     if word.parse::<f64>().is_ok() {
         return Some("a number here belongs to no directive: is there one number too many before it?".into());
     }
@@ -155,6 +152,9 @@ pub(crate) fn hint_for(word: &str) -> Option<String> {
 
 /// The closest candidate, if it is close: an edit distance of a third of the word at most.
 pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    if word.len() > 64 {
+        return None; // close to no word of ours, and the distance takes quadratic time
+    }
     let folded = word.to_lowercase();
     let distance = |name: &str| strsim::damerau_levenshtein(&folded, &name.to_lowercase());
     let (best, at) = candidates.into_iter().map(|name| (name, distance(name))).min_by_key(|&(_, d)| d)?;

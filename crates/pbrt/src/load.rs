@@ -49,8 +49,8 @@ fn read_bytes(path: &Path) -> Result<Bytes, ErrorKind> {
     }
     check_size(meta.len())?;
     if meta.len() >= MAP_FROM {
-        // SAFETY: the map is read-only and private to this process; as with every mapped input, the file must
-        // not be truncated while the scene is in use, which the manual states.
+        // SAFETY: the map is read-only and private to this process; as with every mapped input, nobody may
+        // truncate the file while the scene is in use.
         let map = unsafe { memmap2::Mmap::map(&file) }.map_err(ErrorKind::Io)?;
         return decompress(Bytes::Mapped(map));
     }

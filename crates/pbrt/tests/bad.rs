@@ -2,6 +2,8 @@
 //!
 //! `TYNDALL_BLESS=1 cargo test -p tyndall-pbrt --test bad` writes the messages anew; read them before committing.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

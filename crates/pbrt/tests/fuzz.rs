@@ -1,5 +1,7 @@
 //! No input makes the parser panic, and what it accepts it writes back and reads again as the same.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+
 use std::path::Path;
 
 use proptest::prelude::*;

@@ -1,5 +1,7 @@
 //! Typed getters, and track of what was consumed.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+
 use std::sync::Arc;
 
 use tyndall_pbrt::{
@@ -115,7 +117,14 @@ fn the_inventory_follows_every_parameter() {
 fn the_last_of_a_name_counts() {
     let p = params(r#""float a" 1 "float a" 2"#);
     assert_eq!(p.float("a", 0.0).unwrap(), 2.0);
-    assert!(p.unused().is_empty(), "the first is shadowed");
+    assert!(p.unused().is_empty(), "the first is marked");
+    let all = scene(r#""float a" 1 "float a" 2"#);
+    let states: Vec<_> = all.inventory.iter().map(|i| i.state().to_string()).collect();
+    assert_eq!(states, ["ignored: a later one of the same name counts", "unread"]);
+    assert_eq!(
+        all.diagnostics.to_vec()[0].to_string(),
+        "s.pbrt:2:15: warning: parameter \"float a\" is given twice"
+    );
 }
 
 #[test]
@@ -188,4 +197,25 @@ fn readers_make_errors_at_values() {
         p.missing("point3", "P").to_string(),
         "s.pbrt:2:1: Shape \"thing\": parameter \"point3 P\" is missing"
     );
+}
+
+#[test]
+fn parameters_can_be_read_from_many_threads() {
+    let p = params(r#""float a" 1 "float b" 2"#);
+    std::thread::scope(|scope| {
+        for name in ["a", "b"] {
+            let p = &p;
+            scope.spawn(move || p.float(name, 0.0).unwrap());
+        }
+    });
+    assert!(p.unused().is_empty());
+}
+
+/// A hostile directive with very many parameters takes linear time.
+#[test]
+fn very_many_parameters() {
+    let p = params(&"\"float a\" 1 ".repeat(200_000));
+    assert_eq!(p.len(), 200_000);
+    p.float("a", 0.0).unwrap();
+    assert!(p.unused().is_empty());
 }

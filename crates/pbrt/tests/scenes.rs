@@ -1,5 +1,7 @@
 //! Whole scenes: every directive, files within files, line ends and encodings.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -142,17 +142,9 @@ impl ParamSet {
         self.params.iter().filter(|p| !p.inherited && p.info.state() == ParamState::Unread)
     }
 
-    /// Own parameters that no reader consumed or marked. Inherited ones may go unused, as in pbrt-v4, and so may
-    /// one that a later one of the same name and type shadows.
+    /// Own parameters that no reader consumed or marked. Inherited ones may go unused, as in pbrt-v4.
     pub fn unused(&self) -> Vec<&Param> {
-        let shadowed = |p: &Param| {
-            self.params.iter().any(|q| {
-                q.info.name == p.info.name
-                    && q.info.kind == p.info.kind
-                    && q.info.state() != ParamState::Unread
-            })
-        };
-        self.unread().filter(|p| !shadowed(p)).collect()
+        self.unread().collect()
     }
 
     /// The parameter `name`, which must have one of the types and at least one value; it is marked consumed.

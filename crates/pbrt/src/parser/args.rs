@@ -9,7 +9,7 @@ use crate::text::Text;
 use crate::token::{Token, TokenKind};
 
 /// How much of a long token a message shows.
-const SHOWN: usize = 40;
+const SHOWN: usize = 60;
 
 impl Parser {
     /// The next token, which `context` needs.
@@ -114,12 +114,16 @@ impl Parser {
 
 /// A token for a message: cut if long, a bare word in backticks.
 pub(super) fn shown(lexer: &Lexer, token: Token) -> String {
-    let text = String::from_utf8_lossy(lexer.bytes(token));
-    let mut cut: String = text.chars().take(SHOWN).collect();
-    if cut.len() < text.len() {
-        cut.push_str("...");
-    }
+    let cut = brief(&String::from_utf8_lossy(lexer.bytes(token)));
     if matches!(token.kind, TokenKind::Quoted { .. }) { cut } else { format!("`{cut}`") }
+}
+
+/// A text for a message: cut if long.
+pub(super) fn brief(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_string(),
+    }
 }
 
 /// Help for those who put brackets where pbrt has none.

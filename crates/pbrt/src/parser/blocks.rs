@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::args::brief;
 use crate::error::{Error, ErrorKind};
 use crate::source::SourceMap;
 use crate::span::Span;
@@ -146,7 +147,7 @@ impl Blocks {
         if *first == name.span() {
             return Ok(());
         }
-        let kind = ErrorKind::Redefined { what, name: name.as_str().into(), first: sources.location(*first) };
+        let kind = ErrorKind::Redefined { what, name: brief(name), first: sources.location(*first) };
         Err(Error::new(kind, sources.place(name.span())))
     }
 }

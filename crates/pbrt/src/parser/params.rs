@@ -1,8 +1,10 @@
 //! Parameter lists: `"type name" value` or `"type name" [ values ]`, any number of them.
 
+use std::collections::HashSet;
 use std::sync::{Arc, Mutex};
 
 use super::Parser;
+use super::args::brief;
 use crate::error::{Error, ErrorKind};
 use crate::lexer::ListError;
 use crate::number;
@@ -22,7 +24,20 @@ impl Parser {
             self.lexer.next_token()?;
             params.push(self.param(token, &owner)?);
         }
+        self.mark_repeated(&params);
         Ok(ParamSet::new(owner, self.sources.clone(), params))
+    }
+
+    /// Of parameters with the same name and type the last one counts, as in pbrt-v4; the others are said to be so.
+    fn mark_repeated(&self, params: &[Param]) {
+        let mut seen = HashSet::new();
+        for param in params.iter().rev().map(|p| &p.info) {
+            if !seen.insert((&*param.name, param.kind)) {
+                param.mark(ParamState::Ignored("a later one of the same name counts".into()));
+                let message = format!("parameter \"{} {}\" is given twice", param.kind, param.name);
+                self.warn_at(param.span, message, "the last one counts");
+            }
+        }
     }
 
     fn param(&mut self, decl: Token, owner: &Arc<Owner>) -> Result<Param, Error> {
@@ -72,7 +87,7 @@ impl Parser {
             return Ok(ParamType::Normal);
         }
         ParamType::find(word).ok_or_else(|| {
-            let kind = ErrorKind::UnknownType { kind: word.into(), name: name.into() };
+            let kind = ErrorKind::UnknownType { kind: brief(word), name: brief(name) };
             Error::new(kind, self.place(decl.span)).maybe_hint(ParamType::hint_for(word))
         })
     }
