@@ -1,7 +1,7 @@
 //! The scene: geometry and what is bound to it.
 
 use crate::{
-    camera::Camera,
+    camera::{Camera, Orthographic, Projective},
     ids::{LightId, MaterialId, MediumId},
     light::LightSet,
     material::Material,
@@ -9,6 +9,7 @@ use crate::{
 };
 use tyndall_base::Vec3;
 use tyndall_geometry::{Accel, Hit, Ray, SurfacePoint};
+use tyndall_spectral::Emission;
 
 /// What a shape group carries besides its geometry.
 #[derive(Clone, Debug)]
@@ -62,6 +63,40 @@ pub struct Interaction<'s> {
 }
 
 impl Scene {
+    /// A scene with nothing in it.
+    pub fn empty() -> Self {
+        let accel = Accel::build(Vec::new(), &[], Vec::new(), &tyndall_geometry::BuildOptions::default())
+            .expect("nothing is nothing wrong");
+        let projective = Projective {
+            resolution: [1, 1],
+            screen: [-1.0, 1.0, -1.0, 1.0],
+            lens_radius: 0.0,
+            focal_distance: 1.0,
+            to_world: tyndall_geometry::Transform::IDENTITY,
+        };
+        let camera = Camera::Orthographic(Orthographic::new(projective).expect("a valid camera"));
+        Self {
+            accel,
+            shapes: Vec::new(),
+            materials: Vec::new(),
+            media: Vec::new(),
+            lights: LightSet::default(),
+            camera,
+            camera_medium: MediumId::VACUUM,
+        }
+    }
+
+    /// Every emission of the scene with a weight that makes them comparable: about the power per unit of spectrum.
+    pub fn emitters(&self) -> Vec<(f32, &Emission)> {
+        let (_, radius) = self.accel.bounds().bounding_sphere();
+        let radius = if radius.is_finite() && radius > 0.0 { radius } else { 1.0 };
+        let lights = self.lights.iter().map(|l| (l.extent(&self.accel, radius) as f32, l.spectrum()));
+        // a medium that fills the scene: 4 pi times its volume, per metre of absorption
+        let volume = 4.0 / 3.0 * std::f32::consts::PI * radius * radius * radius;
+        let media = self.media.iter().filter_map(|m| m.emission());
+        lights.chain(media.map(|e| (4.0 * std::f32::consts::PI * volume, e))).collect()
+    }
+
     /// The nearest surface along `ray`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {

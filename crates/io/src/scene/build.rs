@@ -165,7 +165,7 @@ pub fn build(
     let scene =
         Scene { accel, shapes: groups.bindings, materials: materials.table, media: media.table, lights, camera, camera_medium };
     Ok(LoadedScene {
-        scene: Arc::new(scene),
+        scene,
         film,
         filter,
         sampler,

@@ -40,11 +40,13 @@ pub struct LoadOptions {
     pub integrator: Option<String>,
     /// Instructions of the ray traversal.
     pub dispatch: Dispatch,
+    /// Values that replace those of the scene, as `NAME.PARAM=VALUE`.
+    pub set: Vec<String>,
 }
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { range: LambdaRange::VISIBLE, strict: false, integrator: None, dispatch: Dispatch::Detect }
+        Self { range: LambdaRange::VISIBLE, strict: false, integrator: None, dispatch: Dispatch::Detect, set: Vec::new() }
     }
 }
 
@@ -52,7 +54,7 @@ impl Default for LoadOptions {
 #[derive(Debug)]
 pub struct LoadedScene {
     /// The scene.
-    pub scene: Arc<Scene>,
+    pub scene: Scene,
     /// Film.
     pub film: FilmDescription,
     /// Pixel filter.

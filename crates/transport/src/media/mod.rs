@@ -36,6 +36,13 @@ pub enum Medium {
 }
 
 impl Medium {
+    /// The source radiance, if the medium emits.
+    pub fn emission(&self) -> Option<&tyndall_spectral::Emission> {
+        match self {
+            Self::Homogeneous(m) => m.le.as_ref(),
+        }
+    }
+
     /// The properties, when they do not depend on the point.
     #[inline(always)]
     pub fn homogeneous<const N: usize>(&self, w: &Wavelengths<N>) -> MediumProperties<'_, N> {

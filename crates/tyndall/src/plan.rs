@@ -1,0 +1,254 @@
+//! A scene and options become a pass and a job.
+
+use crate::{
+    Error, Options,
+    options::{Spectral, WavelengthPdf},
+};
+use std::{path::Path, sync::Arc};
+use tyndall_engine::Job;
+use tyndall_film::{Channels, ErrorMode, FilmSpec, PixelBounds};
+use tyndall_geometry::Dispatch;
+use tyndall_integrators::{
+    layers::Layers,
+    pixel::{Lanes, Method, PixelPass},
+};
+use tyndall_io::{LoadOptions, LoadedScene, load_file, load_text, scene::crop_bounds};
+use tyndall_spectral::{
+    Curve, Emission, LambdaRange, WavelengthSampler, cie,
+    strategy::{Density, FixedSet},
+};
+use tyndall_transport::Scene;
+
+/// The scene that is rendered when none is named: a Cornell box filled with bluish fog, absolute units.
+pub const BUILT_IN_NAME: &str = "cornell-fog";
+const BUILT_IN: &str = include_str!("../scenes/cornell-fog.pbrt");
+
+/// Where a scene comes from.
+#[derive(Clone, Copy, Debug)]
+pub enum Source<'a> {
+    /// The scene inside the program.
+    BuiltIn,
+    /// A file.
+    File(&'a Path),
+    /// A text with a name for messages; files are looked for in the folder.
+    Text(&'a str, &'a str, &'a Path),
+}
+
+/// Everything needed to render.
+#[derive(Debug)]
+pub struct Plan {
+    /// The scene's description beside the scene itself.
+    pub loaded: LoadedScene,
+    /// Turns units of work into patches.
+    pub pass: PixelPass,
+    /// What is to be done.
+    pub job: Job,
+    /// Spectral range of the job.
+    pub range: LambdaRange,
+    /// The spectral strategy.
+    pub spectral: Spectral,
+    /// The integrator's name.
+    pub integrator: String,
+    /// The image's channels: RGB, then bands.
+    pub channels: Channels,
+}
+
+/// Loads the scene and nothing more.
+pub fn load(source: Source<'_>, options: &Options) -> Result<LoadedScene, Error> {
+    let load = LoadOptions {
+        range: options.range,
+        strict: options.strict,
+        integrator: options.integrator.clone(),
+        dispatch: options.dispatch,
+        set: options.set.clone(),
+    };
+    Ok(match source {
+        Source::BuiltIn => load_text(&format!("{BUILT_IN_NAME}.pbrt (built in)"), BUILT_IN, Path::new(""), &load)?,
+        Source::File(path) => load_file(path, &load)?,
+        Source::Text(name, text, dir) => load_text(name, text, dir, &load)?,
+    })
+}
+
+/// Loads the scene and plans the job.
+pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
+    let mut loaded = load(source, options)?;
+    reframe(&mut loaded, options)?;
+    if let Some(edges) = &options.band_edges {
+        loaded.film.band_edges.clone_from(edges);
+    }
+    let channels = loaded.film.channels()?;
+    let wavelengths = sampler(&loaded, options)?;
+    let settings = {
+        let mut s = loaded.integrator.settings.clone();
+        s.sampler = loaded.sampler.kind;
+        s.max_depth = options.max_depth.unwrap_or(s.max_depth);
+        s
+    };
+    let method = loaded.integrator.method;
+    check_method(method, &loaded.scene)?;
+    let lanes = lanes(method, options)?;
+    let layers = Layers { orders: options.orders.clone(), aovs: options.aovs.clone(), flat: flat(&channels, options.range) };
+    let seed = options.seed.unwrap_or(loaded.sampler.seed);
+    let spec = Arc::new(film_spec(&loaded, options, &channels, &layers, seed));
+    let spp = options.spp.unwrap_or(loaded.sampler.spp);
+    let mut job = Job::new(spec, spp);
+    job.scene_hash.clone_from(&loaded.hash);
+    job.settings = identity(&loaded, options, &settings);
+    (job.target, job.time, job.shard) = (options.target.clone(), options.time, options.shard);
+    job.guide = options.guide.clone();
+    job.validate()?;
+    let replicates = match options.errors {
+        ErrorMode::Conservative => 1,
+        ErrorMode::Replicated { replicates } => replicates,
+    };
+    let scene = std::mem::replace(&mut loaded.scene, Scene::empty());
+    let pass = PixelPass {
+        scene: Arc::new(scene),
+        method,
+        settings,
+        lanes,
+        wavelengths,
+        channels: channels.clone(),
+        filter: loaded.filter.clone(),
+        layers,
+        seed,
+        replicates,
+        portable: options.dispatch == Dispatch::Portable,
+    };
+    let integrator = loaded.integrator.name.clone();
+    Ok(Plan { loaded, pass, job, range: options.range, spectral: options.spectral, integrator, channels })
+}
+
+/// Another size, another part.
+fn reframe(loaded: &mut LoadedScene, options: &Options) -> Result<(), Error> {
+    if let Some(resolution) = options.resolution {
+        let scene = std::mem::replace(&mut loaded.scene, Scene::empty());
+        loaded.scene = Scene { camera: scene.camera.clone().resized(resolution), ..scene };
+        loaded.film.resolution = resolution;
+        loaded.film.bounds = PixelBounds::new(0, 0, resolution[0], resolution[1]);
+    }
+    if let Some(crop) = options.crop {
+        loaded.film.bounds = crop_bounds(crop, loaded.film.resolution);
+        if loaded.film.bounds.area() == 0 {
+            return Err(Error::options(
+                format!("--crop: expected a window that holds a pixel, got {crop:?} of {:?}", loaded.film.resolution),
+                Some("x0,x1,y0,y1 are fractions of the picture from its upper left corner".into()),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Analog paths meet lights by chance only.
+fn check_method(method: Method, scene: &Scene) -> Result<(), Error> {
+    if method == Method::Analog && scene.lights.iter().any(|l| l.is_delta()) {
+        return Err(Error::options(
+            "--integrator analog: the scene has point, spot or distant lights, which no path meets by chance",
+            Some("give the light a size, or use --integrator volpath".into()),
+        ));
+    }
+    Ok(())
+}
+
+fn lanes(method: Method, options: &Options) -> Result<Lanes, Error> {
+    let count = match options.spectral {
+        Spectral::Hero { wavelengths } if method == Method::Volpath => wavelengths,
+        _ => 1,
+    };
+    Lanes::from_count(count).ok_or_else(|| {
+        Error::options(
+            format!("--wavelengths {count}: a path of --spectral hero carries 1, 4, 8 or 16 wavelengths"),
+            Some("for a fixed set of any size use --spectral opow".into()),
+        )
+    })
+}
+
+/// The density of wavelengths, with every spectral line of the scene.
+fn sampler(loaded: &LoadedScene, options: &Options) -> Result<WavelengthSampler, Error> {
+    let sources = loaded.scene.emitters();
+    let lines = sources.iter().any(|(_, e)| !e.lines().is_empty());
+    if let Spectral::Opow { set: Some((count, rule)) } = options.spectral {
+        if lines {
+            return Err(Error::options(
+                "a fixed set of wavelengths misses the scene's spectral lines",
+                Some("leave out --wavelengths to draw from the continuum and the lines".into()),
+            ));
+        }
+        return Ok(FixedSet::new(options.range, count as usize, rule)?.into());
+    }
+    let weighted: Vec<(f32, &Emission)> = sources.iter().map(|(w, e)| (*w, *e)).collect();
+    let responses = responses(&loaded.film.band_edges)?;
+    let density = match options.wavelength_pdf {
+        WavelengthPdf::Uniform | WavelengthPdf::Visible if lines => {
+            let all: Vec<_> = sources.iter().flat_map(|(_, e)| e.lines().iter().copied()).collect();
+            Density::uniform_with_lines(options.range, &all, 0.3)?
+        }
+        WavelengthPdf::Uniform => Density::uniform(options.range),
+        WavelengthPdf::Visible => Density::visible(options.range)?,
+        WavelengthPdf::Light if weighted.is_empty() => Density::uniform(options.range),
+        // light that no response sees leaves the density to the range alone
+        WavelengthPdf::Light => Density::light(options.range, &responses, &weighted)
+            .or_else(|_| Density::uniform_with_lines(options.range, &[], 0.0))?,
+    };
+    Ok(density.into())
+}
+
+/// What the film sees: the colour matching functions and, for bands, each band.
+fn responses(edges: &[f32]) -> Result<Vec<Curve>, Error> {
+    let mut all = cie::matching_functions().to_vec();
+    for e in edges.windows(2) {
+        all.push(Curve::step(e, &[1.0 / (e[1] - e[0])], tyndall_spectral::Outside::Zero)?);
+    }
+    Ok(all)
+}
+
+/// The channels' response to a flat spectrum of value 1 over the range.
+fn flat(channels: &Channels, range: LambdaRange) -> Vec<f32> {
+    let steps = 4 * range.width().ceil() as usize;
+    let mut sum = vec![0.0f64; channels.len()];
+    let mut out = vec![0.0f32; channels.len()];
+    for i in 0..steps {
+        let lambda = range.min + range.width() * (i as f32 + 0.5) / steps as f32;
+        let w = tyndall_spectral::Wavelengths::continuum([lambda], [1.0 / range.width()]);
+        channels.respond(&tyndall_spectral::Spectrum([1.0]), &w, &mut out);
+        sum.iter_mut().zip(&out).for_each(|(s, o)| *s += f64::from(*o) / steps as f64);
+    }
+    sum.into_iter().map(|s| s as f32).collect()
+}
+
+fn film_spec(
+    loaded: &LoadedScene,
+    options: &Options,
+    channels: &Channels,
+    layers: &Layers,
+    seed: u64,
+) -> FilmSpec {
+    let group = channels.group(crate::units::channel_unit(&loaded.units));
+    let mut spec = FilmSpec::new(loaded.film.resolution, group.clone(), channels.luminance(), options.errors);
+    for layer in layers.groups(&group) {
+        spec = spec.with_group(layer);
+    }
+    spec.bounds = loaded.film.bounds;
+    spec.weights = loaded.filter.weights();
+    spec.clamp = options.clamp;
+    spec.seed = seed;
+    spec
+}
+
+/// Whatever the samples depend on beyond the film: jobs that differ here do not mix.
+fn identity(
+    loaded: &LoadedScene,
+    options: &Options,
+    settings: &tyndall_integrators::Settings,
+) -> Vec<(String, String)> {
+    let pair = |k: &str, v: String| (k.to_owned(), v);
+    vec![
+        pair("integrator", loaded.integrator.name.clone()),
+        pair("settings", format!("{settings:?}")),
+        pair("spectral", format!("{:?}", options.spectral)),
+        pair("wavelength-pdf", format!("{:?}", options.wavelength_pdf)),
+        pair("range", format!("{}", options.range)),
+        pair("filter", format!("{:?}", loaded.filter)),
+        pair("set", options.set.join(" ")),
+    ]
+}
