@@ -21,10 +21,9 @@ impl Curve {
         let whole = widened(range);
         let exact = match self {
             Self::Constant(_) => true,
-            Self::Dense(table) => table.range().covers(&whole),
+            Self::Dense(table) => table.range().covers(&whole) && whole_knots(table.lambda(), whole),
             Self::Linear(table) => {
-                table.range().covers(&whole)
-                    && table.lambda().iter().all(|l| l.fract() == 0.0 || !whole.contains(*l))
+                table.range().covers(&whole) && whole_knots(table.lambda().iter().copied(), whole)
             }
             Self::Scaled(factor, curve) => return Some(curve.bake(range)?.fold_scale(*factor)),
             _ => false,
@@ -62,6 +61,11 @@ impl Curve {
             _ => self.scaled(factor),
         }
     }
+}
+
+/// True when every point inside `range` is at a whole nanometre.
+fn whole_knots(mut lambda: impl Iterator<Item = f32>, range: LambdaRange) -> bool {
+    lambda.all(|l| l.fract() == 0.0 || !range.contains(l))
 }
 
 /// The least range with whole ends that covers `range`.

@@ -30,8 +30,7 @@ impl Curve {
             Self::Linear(table) => self.extremes(corners(table.lambda(), range)),
             Self::Step(table) => self.extremes(corners(table.edges(), range)),
             Self::Dense(table) => {
-                let knots = (0..table.values().len()).map(|i| table.first() + i as f32);
-                let inside = knots.filter(|&l| range.contains(l));
+                let inside = table.lambda().filter(|&l| range.contains(l));
                 self.extremes(inside.chain(outer(table.range(), range)))
             }
         }

@@ -31,11 +31,11 @@ use crate::wavelengths::Wavelengths;
 pub enum Curve {
     /// The same everywhere.
     Constant(f32),
-    /// Straight lines between points.
+    /// Straight lines between uneven points.
     Linear(Arc<PiecewiseLinear>),
     /// One value per band.
     Step(Arc<Step>),
-    /// A 1 nm table.
+    /// A table at equal distances.
     Dense(Arc<Dense>),
     /// Thermal radiation.
     Blackbody(Blackbody),
@@ -55,9 +55,13 @@ impl Curve {
     /// One everywhere.
     pub const ONE: Self = Self::Constant(1.0);
 
-    /// Straight lines between (`lambda` \[nm\], ascending; `values`), at least two points.
+    /// Straight lines between (`lambda` \[nm\], ascending; `values`), at least two points. Points at equal distances become
+    /// [`Curve::Dense`], which is faster and has the same values.
     pub fn linear(lambda: &[f32], values: &[f32], outside: Outside) -> Result<Self, SpectralError> {
-        Ok(Self::Linear(Arc::new(PiecewiseLinear::new(lambda, values, outside)?)))
+        match Dense::from_even_points(lambda, values, outside) {
+            Some(table) if lambda[0] >= 0.0 => Ok(Self::Dense(Arc::new(table))),
+            _ => Ok(Self::Linear(Arc::new(PiecewiseLinear::new(lambda, values, outside)?))),
+        }
     }
 
     /// As [`Curve::linear`], from `lambda, value, lambda, value, ...`.
@@ -76,7 +80,7 @@ impl Curve {
 
     /// Values at `first_nm`, `first_nm + 1`, ... nm with straight lines between.
     pub fn dense(first_nm: u32, values: &[f32], outside: Outside) -> Result<Self, SpectralError> {
-        Ok(Self::Dense(Arc::new(Dense::new(first_nm, values, outside)?)))
+        Ok(Self::Dense(Arc::new(Dense::new(first_nm as f32, 1.0, values, outside)?)))
     }
 
     /// Planck's law, scaled to the maximum 1 at its peak.
@@ -132,12 +136,12 @@ impl Curve {
     pub fn sample<const N: usize>(&self, w: &Wavelengths<N>) -> Spectrum<N> {
         match self {
             Self::Constant(v) => Spectrum::splat(*v),
-            Self::Linear(table) => Spectrum::from_fn(|k| table.eval(w.lambda[k])),
-            Self::Step(table) => Spectrum::from_fn(|k| table.eval(w.lambda[k])),
+            Self::Linear(table) => per_lane(w, |l| table.eval(l)),
+            Self::Step(table) => per_lane(w, |l| table.eval(l)),
             Self::Dense(table) => table.sample(w),
             Self::Blackbody(body) => body.sample(w),
-            Self::Sigmoid(s) => Spectrum::from_fn(|k| s.eval(w.lambda[k])),
-            Self::ScaledSigmoid(factor, s) => Spectrum::from_fn(|k| factor * s.eval(w.lambda[k])),
+            Self::Sigmoid(s) => per_lane(w, |l| s.eval(l)),
+            Self::ScaledSigmoid(factor, s) => per_lane(w, |l| factor * s.eval(l)),
             Self::Scaled(factor, curve) => curve.sample(w) * *factor,
             Self::Product(pair) => pair.0.sample(w) * pair.1.sample(w),
         }
@@ -188,6 +192,16 @@ impl Default for Curve {
     fn default() -> Self {
         Self::ZERO
     }
+}
+
+/// `f` at every wavelength, in a loop: `array::from_fn` would not inline bodies of this size.
+#[inline(always)]
+fn per_lane<const N: usize>(w: &Wavelengths<N>, f: impl Fn(f32) -> f32) -> Spectrum<N> {
+    let mut out = Spectrum::ZERO;
+    for k in 0..N {
+        out[k] = f(w.lambda[k]);
+    }
+    out
 }
 
 /// Refuses NaN and infinities.

@@ -88,6 +88,35 @@ fn dense_and_linear_tables_agree() {
 }
 
 #[test]
+fn even_points_become_a_dense_table_with_the_same_values() {
+    for (first, step, n) in
+        [(300.0f32, 5.0f32, 107usize), (0.0, 0.5, 2000), (401.25, 10.0, 2), (1000.0, 250.0, 40)]
+    {
+        let lambda: Vec<f32> = (0..n).map(|i| first + i as f32 * step).collect();
+        let values: Vec<f32> = (0..n).map(|i| ((i * i * 7) % 31) as f32 / 31.0).collect();
+        for outside in [Outside::Hold, Outside::Zero, Outside::Error] {
+            let curve = Curve::linear(&lambda, &values, outside).unwrap();
+            assert!(matches!(curve, Curve::Dense(_)));
+            let plain = PiecewiseLinear::new(&lambda, &values, outside).unwrap();
+            for i in 0..=n * 37 {
+                let l = first + step * (i as f32 / 37.0 - 0.2);
+                let (a, b) = (curve.eval(l), plain.eval(l));
+                assert!((a - b).abs() < 2e-4 || (a.is_nan() && b.is_nan()), "{l}: {a} {b}");
+            }
+            for (l, v) in lambda.iter().zip(&values) {
+                assert!((curve.eval(*l) - v).abs() < 1e-4, "{l}");
+            }
+            let beyond = [first.next_down(), lambda[n - 1].next_up()].map(|l| curve.eval(l));
+            match outside {
+                Outside::Hold => assert!(first == 0.0 || beyond == [values[0], values[n - 1]]),
+                Outside::Zero => assert_eq!(beyond, [0.0; 2]),
+                Outside::Error => assert!(beyond.iter().all(|v| v.is_nan())),
+            }
+        }
+    }
+}
+
+#[test]
 fn step_bands_are_closed_on_the_left() {
     let curve = Curve::step(&[400.0, 500.0, 600.0], &[1.0, 2.0], Outside::Zero).unwrap();
     assert_eq!(

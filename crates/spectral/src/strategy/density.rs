@@ -6,7 +6,7 @@ use crate::wavelengths::CONTINUUM;
 /// `u` moves on this grid, so cumulative sums rounded to it are exact probabilities.
 const GRID: f64 = 16_777_216.0;
 /// Buckets of the guide table.
-const GUIDE: usize = 1024;
+const GUIDE: usize = 4096;
 
 /// A piecewise constant density on cells of at most 1 nm, and lines with probabilities.
 ///
@@ -16,7 +16,7 @@ const GUIDE: usize = 1024;
 pub struct Density {
     range: LambdaRange,
     cells: Vec<Cell>,
-    guide: Vec<u16>,
+    guide: Box<[u16; GUIDE]>,
     lines: Vec<LineCell>,
     /// Probability of the continuum.
     continuum: f32,
@@ -51,7 +51,10 @@ impl Density {
         if u >= self.continuum {
             return self.sample_line(u);
         }
-        let mut i = usize::from(self.guide[(u * GUIDE as f32) as usize & (GUIDE - 1)]);
+        let bucket = (u * GUIDE as f32) as i32 as u32 as usize & (GUIDE - 1);
+        let mut i = usize::from(self.guide[bucket]);
+        // a bucket holds the start of at most one cell of usual mass: no branch for that one
+        i += usize::from(self.cells[i + 1].cdf <= u);
         while self.cells[i + 1].cdf <= u {
             i += 1;
         }
@@ -128,13 +131,13 @@ fn cell(min: f32, width: f64, i: usize, cdf: f32, end: Option<&f32>) -> Cell {
 }
 
 /// For each bucket of `u`, the last cell that starts at or before the bucket.
-fn guide(cells: &[Cell]) -> Vec<u16> {
+fn guide(cells: &[Cell]) -> Box<[u16; GUIDE]> {
     let last = cells.len().saturating_sub(2);
     let start = |b: usize| {
         let u = b as f32 / GUIDE as f32;
         cells.partition_point(|c| c.cdf <= u).saturating_sub(1).min(last) as u16
     };
-    (0..GUIDE).map(start).collect()
+    Box::new(std::array::from_fn(start))
 }
 
 /// Number of cells on a range: 1 nm each, wider only beyond 32768 nm.

@@ -2,6 +2,7 @@
 
 use crate::error::SpectralError;
 use crate::range::LambdaRange;
+use crate::wavelengths::Wavelengths;
 
 /// Where the wavelengths of a fixed set of M stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +57,21 @@ impl FixedSet {
     /// The range the set was spread over.
     pub fn range(&self) -> LambdaRange {
         self.range
+    }
+
+    /// Number of groups of `N` that hold the whole set.
+    pub fn groups<const N: usize>(&self) -> usize {
+        self.lambda.len().div_ceil(N)
+    }
+
+    /// Wavelengths `g N .. (g + 1) N` of the set, for strategies that carry the whole set. Slots past the end repeat the
+    /// last wavelength with an infinite density, so that they count nothing. The sum over groups of `value / pdf`, divided
+    /// by M, is the quadrature sum.
+    pub fn group<const N: usize>(&self, g: usize) -> Wavelengths<N> {
+        let last = self.lambda.len() - 1;
+        let lambda = std::array::from_fn(|k| self.lambda[(g * N + k).min(last)]);
+        let pdf = std::array::from_fn(|k| if g * N + k <= last { self.pdf } else { f32::INFINITY });
+        Wavelengths::continuum(lambda, pdf)
     }
 
     /// One of the set, for `u` uniform in \[0, 1).

@@ -4,6 +4,10 @@
 //! `p(lambda) ~ 0.9 sqrt(sum_k (r_k S / integral of r_k S)^2) + 0.1 uniform`, the norm being the density that minimises the
 //! summed relative variances of the channels for a scene without colour of its own. Lines take part with their power
 //! in place of power per nm, and get probabilities.
+//!
+//! Relative variance of X, Y, Z, mean over the 24 ColorChecker patches, 1 / 8 wavelengths, by quadrature: uniform
+//! 3.16 / 0.008 (D65), 7.96 / 0.61 (F11); 1/cosh^2 of pbrt-v4 1.93 / 0.002, 5.32 / 0.41; [`Density::visible`] 1.05 / 0.005,
+//! 3.21 / 0.12; [`Density::light`] 1.04 / 0.006, 1.11 / 0.009.
 
 use super::density::{Density, Weights, cell_count};
 use crate::cie;

@@ -212,6 +212,17 @@ fn fixed_sets_give_the_quadrature_sum() {
 }
 
 #[test]
+fn groups_hold_the_whole_set_once() {
+    let set = FixedSet::new(LambdaRange { min: 380.0, max: 780.0 }, 21, Rule::Midpoint).unwrap();
+    assert_eq!((set.groups::<8>(), set.groups::<16>()), (3, 2));
+    let squares =
+        |w: Wavelengths<8>| (0..8).map(|k| f64::from(w.lambda[k] * w.lambda[k] / w.pdf[k])).sum::<f64>();
+    let got = (0..3).map(|g| squares(set.group(g))).sum::<f64>() / 21.0;
+    let sum: f64 = set.lambda().iter().map(|&l| f64::from(set.weight() * l * l)).sum();
+    assert!((got / sum - 1.0).abs() < 1e-6, "{got} {sum}");
+}
+
+#[test]
 fn light_that_the_film_cannot_see_is_refused() {
     assert!(
         Density::light(LambdaRange { min: 1000.0, max: 1200.0 }, matching_functions(), &[(1.0, &lamp())])
