@@ -73,3 +73,34 @@ impl Pcg32 {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tyndall_testkit::chi2_discrete;
+
+    #[test]
+    fn first_outputs_are_those_of_the_reference() {
+        // pcg32_srandom(42, 54) of the published C implementation
+        let mut rng = Pcg32::new(42, 54);
+        let expected = [0xa15c_02b7, 0x7b47_f409, 0xba1d_3330, 0x83d2_f293, 0xbfa4_784b, 0xcbed_606e];
+        assert_eq!(std::array::from_fn(|_| rng.next_u32()), expected);
+    }
+
+    #[test]
+    fn numbers_and_pairs_are_uniform() {
+        let mut rng = Pcg32::new(1, 2);
+        let pair = |_: &mut _| Some(rng.next_2d().map(|x| (x * 32.0) as usize)).map(|[x, y]| 32 * x + y);
+        chi2_discrete(pair, &[1.0 / 1024.0; 1024], 1_000_000, 0).assert_ok("pairs", 3);
+        let mut rng = Pcg32::from_key(7);
+        let below = |_: &mut _| Some(rng.below(7) as usize);
+        chi2_discrete(below, &[1.0 / 7.0; 7], 1_000_000, 0).assert_ok("below", 3);
+        // the first number of neighbouring keys, as a tracking loop seeds it
+        let mut key = 0_u64;
+        let first = |_: &mut _| {
+            key += 1;
+            Some((Pcg32::from_key(mix64(key)).next_f32() * 1000.0) as usize)
+        };
+        chi2_discrete(first, &[1e-3; 1000], 1_000_000, 0).assert_ok("keyed", 3);
+    }
+}

@@ -1,7 +1,7 @@
 use super::vec64::{V, add_scaled, cross, dot, from, length, to_vec3};
 use crate::math::f64::{atan2, sin_cos};
 use crate::vec::Vec3;
-use std::f64::consts::PI;
+use std::f64::consts::TAU;
 
 /// Uniform directions in the solid angle of a rectangle (Urena, Fajardo & King 2013).
 ///
@@ -16,7 +16,7 @@ pub struct SphericalRectangle {
     z0: f64,
     /// z of the normals of the planes through the origin and the lower and upper side.
     b: [f64; 2],
-    /// Sum of the two angles at the left side, turned over.
+    /// A full turn less the two angles at the left side.
     k: f64,
     solid_angle: f64,
 }
@@ -39,9 +39,9 @@ impl SphericalRectangle {
         let (az, z0) = if distance > 0.0 { (normal.map(|v| -v), -distance) } else { (normal, distance) };
         let (x0, y0) = (dot(d, ax), dot(d, ay));
         let (x, y) = ([x0, x0 + width], [y0, y0 + height]);
-        let [g0, g1, g2, g3] = angles(x, y, z0);
-        let k = 2.0 * PI - g2 - g3;
-        let solid_angle = g0 + g1 - k;
+        let [right, left] = angles(x, y, z0);
+        let k = TAU - left;
+        let solid_angle = right - k;
         let b = y.map(|y| -y / (y * y + z0 * z0).sqrt());
         let b = [b[0], -b[1]];
         let rectangle = Self { axes: [ax, ay, az], x, y, z0, b, k, solid_angle };
@@ -93,20 +93,25 @@ impl SphericalRectangle {
         let p = p.map(|v| v * self.z0 / dot(p, self.axes[2]));
         let x = dot(p, self.axes[0]).clamp(self.x[0], self.x[1]);
         let y = dot(p, self.axes[1]).clamp(self.y[0], self.y[1]);
-        let [g0, g1, g2, g3] = angles([self.x[0], x], self.y, self.z0);
-        let part = (g0 + g1 + g2 + g3 - 2.0 * PI) / self.solid_angle;
+        let [right, left] = angles([self.x[0], x], self.y, self.z0);
+        let part = (right + left - TAU) / self.solid_angle;
         let h = |y: f64| y / (x * x + self.z0 * self.z0 + y * y).sqrt();
         let height = (h(y) - h(self.y[0])) / (h(self.y[1]) - h(self.y[0]));
         [part.clamp(0.0, 1.0) as f32, height.clamp(0.0, 1.0) as f32]
     }
 }
 
-/// Interior angles of the spherical rectangle, at the lower right, upper right, upper left and lower left corner.
+/// Interior angles of the spherical rectangle: the sum of the two on the right and of the two on the left.
 ///
-/// The planes through the origin and the lower, right, upper and left side have the normals n0..n3.
+/// The planes through the origin and the lower, right, upper and left side have the normals n0..n3. Angles are added by
+/// multiplying complex numbers, which takes one arc tangent instead of two.
 #[inline(always)]
-fn angles(x: [f64; 2], y: [f64; 2], z: f64) -> [f64; 4] {
+fn angles(x: [f64; 2], y: [f64; 2], z: f64) -> [f64; 2] {
     let n = [[0.0, z, -y[0]], [-z, 0.0, x[1]], [0.0, -z, y[1]], [z, 0.0, -x[0]]];
-    let angle = |a: V, b: V| atan2(length(cross(a, b)), -dot(a, b));
-    [angle(n[0], n[1]), angle(n[1], n[2]), angle(n[2], n[3]), angle(n[3], n[0])]
+    let angle = |a: V, b: V| (-dot(a, b), length(cross(a, b)));
+    let sum = |(c0, s0): (f64, f64), (c1, s1): (f64, f64)| {
+        let both = atan2(s0 * c1 + c0 * s1, c0 * c1 - s0 * s1);
+        if both < 0.0 { both + TAU } else { both }
+    };
+    [sum(angle(n[0], n[1]), angle(n[1], n[2])), sum(angle(n[2], n[3]), angle(n[3], n[0]))]
 }

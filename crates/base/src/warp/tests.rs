@@ -124,3 +124,40 @@ fn corners_of_the_square_stay_in_range() {
     assert_eq!(sample_exponential(0.5, 0.0), f32::INFINITY);
     assert_eq!(sample_uniform_cone([0.3, 0.3], 0.0), vec3(0.0, 0.0, 1.0));
 }
+
+#[test]
+fn golden_bits() {
+    use crate::hash::{hash2, mix64, to_unit_f32};
+    let triangle =
+        SphericalTriangle::new([vec3(1.0, 2.0, 3.0), vec3(-2.0, 1.5, 0.5), vec3(0.3, -1.0, 2.0)]).unwrap();
+    let rectangle =
+        SphericalRectangle::new(vec3(-1.0, -1.0, 1.0), vec3(2.0, 0.0, 0.0), vec3(0.0, 2.0, 0.0)).unwrap();
+    let equiangular = Equiangular::new(2.0, 0.5, 0.0, 5.0);
+    let hash = (0..20_000_u32).fold(0, |h, i| {
+        let u = [to_unit_f32(hash2(i, 0)), to_unit_f32(hash2(i, 1))];
+        let disk = [sample_concentric_disk(u), sample_polar_disk(u)].map(|p| vec3(p.x, p.y, 0.0));
+        let t = equiangular.sample(u[0]);
+        let lengths = [sample_exponential(u[0], 0.7), sample_truncated_exponential(u[0], 0.7, 3.0), t];
+        let density =
+            vec3(equiangular.pdf(t), pdf_exponential(t, 0.7), pdf_truncated_exponential(t, 0.1, 9.0));
+        let vectors = [
+            disk[0],
+            disk[1],
+            sample_cosine_hemisphere(u),
+            sample_uniform_sphere(u),
+            sample_uniform_cone(u, 0.01),
+            sample_uniform_triangle(u).into(),
+            triangle.sample(u),
+            rectangle.sample(u),
+            lengths.into(),
+            density,
+        ];
+        let [a, b] = sample_bilinear(u, [1.0, 2.0, 0.5, 3.0]);
+        vectors
+            .iter()
+            .flat_map(|v| v.to_array())
+            .chain([a, b])
+            .fold(h, |h, x| mix64(h ^ u64::from(x.to_bits())))
+    });
+    assert_eq!(hash, 0x5d64_0fac_b8ca_8307, "{hash:#018x}");
+}
