@@ -11,3 +11,6 @@ pub mod phase;
 pub use bsdf::{Bsdf, BsdfFlags, BsdfSample, TransportMode};
 pub use error::ScatterError;
 pub use phase::{Mixture, PhaseFunction, PhaseSample};
+
+#[cfg(test)]
+mod sphere_tests;

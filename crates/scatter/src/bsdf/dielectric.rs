@@ -6,9 +6,10 @@
 //! `f_t = D(m) G (1 - F) |wo . m| |wi . m| / (|cos_o cos_i| (wi . m + wo . m / etap)^2)` \[1/sr\], `m` the generalised
 //! half vector of the lane's own index, so every lane has a value and a density at every direction.
 //! Carrying radiance, refraction scales by `1 / etap^2` (Veach 1997, 5.2); [`TransportMode::Importance`] leaves it out.
-//! Multiple bounces between microfacets are not accounted for. Sources: Walter et al. 2007, eq. 16-21.
+//! Multiple bounces between microfacets are not accounted for: seen from outside, glass loses 1 to 4 % at alpha = 0.3 and
+//! 10 to 25 % at alpha = 1; from inside about 10 % and more than half. Sources: Walter et al. 2007, eq. 16-21.
 
-use super::fresnel::{fresnel_dielectric, fresnel_dielectric_n, reflect, refract};
+use super::fresnel::{fresnel_dielectric, fresnel_dielectric_n, reflect, refract, transmittance};
 use super::{BsdfFlags, BsdfSample, TransportMode, TrowbridgeReitz};
 use tyndall_base::vec::{Vec3, vec3};
 use tyndall_spectral::Spectrum;
@@ -76,8 +77,7 @@ impl<const N: usize> Dielectric<N> {
         self.eta.map(|eta| {
             let etap = relative(eta, wo);
             let Some(half) = Refracting::new(wo, wi, etap) else { return 0.0 };
-            let t = 1.0 - fresnel_dielectric(half.cos_o, eta);
-            t * d.d(half.m) * g * half.cos_o.abs() * half.jacobian * self.squeeze(etap)
+            half.transmitted * d.d(half.m) * g * self.squeeze(etap)
         })
     }
 
@@ -95,8 +95,7 @@ impl<const N: usize> Dielectric<N> {
         }
         self.eta.map(|eta| {
             let Some(half) = Refracting::new(wo, wi, relative(eta, wo)) else { return 0.0 };
-            let t = 1.0 - fresnel_dielectric(half.cos_o, eta);
-            t * d.d(half.m) * g1 * half.cos_o.abs() * half.jacobian
+            half.transmitted * d.d(half.m) * g1
         })
     }
 
@@ -148,10 +147,8 @@ fn upward(m: Vec3) -> Vec3 {
 /// The microfacet that refracts `wo` into `wi`.
 struct Refracting {
     m: Vec3,
-    /// `wo . m`, negative when `wo` is below.
-    cos_o: f32,
-    /// `dm / dwi = |wi . m| / (wi . m + wo . m / etap)^2` (Walter et al. 2007, eq. 17).
-    jacobian: f32,
+    /// `(1 - F) |wo . m| dm/dwi`, with `dm/dwi = |wi . m| / (wi . m + wo . m / etap)^2` (Walter et al. 2007, eq. 17).
+    transmitted: f32,
 }
 
 impl Refracting {
@@ -166,6 +163,7 @@ impl Refracting {
         let (cos_o, cos_i) = (wo.dot(m), wi.dot(m));
         let bend = cos_i + cos_o / etap;
         let seen = cos_o * wo.z > 0.0 && cos_i * wi.z > 0.0 && bend != 0.0;
-        seen.then(|| Self { m, cos_o, jacobian: cos_i.abs() / (bend * bend) })
+        let t = transmittance(cos_o, cos_i, etap);
+        seen.then(|| Self { m, transmitted: t * (cos_o * cos_i).abs() / (bend * bend) })
     }
 }

@@ -29,6 +29,17 @@ pub fn fresnel_dielectric_n<const N: usize>(cos_i: f32, eta: &Spectrum<N>) -> Sp
     eta.map(|e| fresnel_dielectric(cos_i, e))
 }
 
+/// Transmittance of a smooth boundary for two cosines that obey Snell's law, `etap` = n(side of i) / n(side of o):
+/// `T = 2 etap c_o c_i (1 / (c_o + etap c_i)^2 + 1 / (etap c_o + c_i)^2)`.
+///
+/// The same as `1 - R`, but symmetric and without cancellation near the critical angle.
+#[inline(always)]
+pub fn transmittance(cos_o: f32, cos_i: f32, etap: f32) -> f32 {
+    let (c_o, c_i) = (cos_o.abs(), cos_i.abs());
+    let (perp, par) = (c_o + etap * c_i, etap * c_o + c_i);
+    2.0 * etap * c_o * c_i * (1.0 / (perp * perp) + 1.0 / (par * par))
+}
+
 /// Reflectance of a smooth boundary to an absorbing material of relative index `eta - i k`, `cos_i` in \[0, 1\].
 ///
 /// With `a + i b = sqrt((eta - i k)^2 - sin_i^2)`:
@@ -107,6 +118,16 @@ mod tests {
         assert_eq!(fresnel_dielectric(0.5, 1.0 / 1.5), 1.0);
         assert!((fresnel_dielectric(1.0, 1.5) - 0.04).abs() < 1e-7);
         assert!(fresnel_dielectric(0.3, 1.0) < 1e-12);
+    }
+
+    #[test]
+    fn nothing_is_lost_between_reflection_and_transmission() {
+        for (w, eta) in
+            [(vec3(0.6, 0.0, 0.8), 1.5), (vec3(0.6, 0.0, -0.8), 1.4), (vec3(0.99, 0.0, 0.141_067_36), 2.0)]
+        {
+            let (t, etap) = refract(w, vec3(0.0, 0.0, 1.0), eta).unwrap();
+            assert!((transmittance(w.z, t.z, etap) + fresnel_dielectric(w.z, eta) - 1.0).abs() < 1e-6);
+        }
     }
 
     /// The textbook's complex arithmetic in f64, kept apart from the real form above.

@@ -99,3 +99,96 @@ impl TrowbridgeReitz {
         vec3(self.alpha_x * h.x, self.alpha_y * h.y, h.z.max(0.0)).normalize()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere_tests::{chi2_square, integrate_square, turn};
+    use std::f64::consts::{PI, TAU as TURN};
+    use tyndall_testkit::{Rng, chi2_1d};
+
+    const ALPHAS: [(f32, f32); 5] = [(0.002, 0.002), (0.05, 0.05), (0.1, 0.4), (0.5, 0.5), (1.0, 0.3)];
+
+    fn views() -> [Vec3; 5] {
+        [(0.0, 0.0, 1.0), (0.5, 0.3, 0.8), (-0.7, 0.7, 0.1), (0.2, 0.9, 0.02), (0.3, -0.4, -0.5)]
+            .map(|(x, y, z)| vec3(x, y, z).normalize())
+    }
+
+    /// Normals by slope: `-m_x / m_z = a_x r cos phi`, `-m_y / m_z = a_y r sin phi`, `1 + r^2 = 1 / (1 - x)^2`, where
+    /// `D m_z dm = (1 - x) dx dphi / pi`: every lobe looks alike.
+    fn normal(d: &TrowbridgeReitz, x: f64, phi: f64) -> [f64; 3] {
+        let r = (1.0 / ((1.0 - x) * (1.0 - x)) - 1.0).sqrt();
+        let (sx, sy) = (f64::from(d.alpha_x) * r * phi.cos(), f64::from(d.alpha_y) * r * phi.sin());
+        let z = 1.0 / (1.0 + sx * sx + sy * sy).sqrt();
+        [-sx * z, -sy * z, z]
+    }
+
+    /// `dm / (dx dphi)`.
+    fn jacobian(d: &TrowbridgeReitz, x: f64, z: f64) -> f64 {
+        f64::from(d.alpha_x * d.alpha_y) * (z / (1.0 - x)).powi(3)
+    }
+
+    #[test]
+    fn normals_project_to_one() {
+        for (ax, ay) in ALPHAS {
+            let d = TrowbridgeReitz::new(ax, ay);
+            for (x, phi) in [(0.0, 0.0), (0.3, 1.0), (0.9, 4.0), (0.999, 2.0)] {
+                let m = normal(&d, x, phi);
+                let density = f64::from(d.d(vec3(m[0] as f32, m[1] as f32, m[2] as f32)));
+                let projected = PI * density * m[2] * jacobian(&d, x, m[2]) / (1.0 - x);
+                assert!((projected - 1.0).abs() < 1e-3, "{ax} {ay} at {x}, {phi}: {projected}");
+            }
+        }
+    }
+
+    /// `int G1(w) max(0, w . m) D(m) dm = |w_z|` (Heitz 2014, eq. 14), and the sampler follows the integrand.
+    #[test]
+    fn visible_normals_are_a_density_and_are_sampled_by_it() {
+        for (ax, ay) in ALPHAS {
+            let d = TrowbridgeReitz::new(ax, ay);
+            for w in views() {
+                let up = if w.z < 0.0 { -w } else { w };
+                let pdf = |x: f64, phi: f64| {
+                    let m = normal(&d, x, phi);
+                    let seen = vec3(m[0] as f32, m[1] as f32, m[2] as f32);
+                    if up.dot(seen) > 0.0 {
+                        f64::from(d.pdf_visible(w, seen)) * jacobian(&d, x, m[2])
+                    } else {
+                        0.0
+                    }
+                };
+                let square = |x: f64, turn: f64| TURN * pdf(x, TURN * turn);
+                let norm = integrate_square(square);
+                assert!((norm - 1.0).abs() < 1e-4, "alpha {ax} {ay}, w {w:?}: {norm}");
+                let draw = |rng: &mut Rng| {
+                    let m = d.sample_visible(w, rng.f32x2());
+                    let (sx, sy) = (f64::from(-m.x / m.z / ax), f64::from(-m.y / m.z / ay));
+                    let r2 = sx * sx + sy * sy;
+                    Some([1.0 - 1.0 / (1.0 + r2).sqrt(), turn(sy, sx)])
+                };
+                chi2_square(draw, square, 50_000, 8).assert_ok(&format!("alpha {ax} {ay}, w {w:?}"), 25);
+            }
+        }
+    }
+
+    /// Narrow lobes in the plane of slopes, scaled by alpha: from above, slopes follow `1 / (pi (1 + r^2)^2)`.
+    #[test]
+    fn narrow_lobes_keep_their_shape() {
+        for alpha in [1e-3_f32, 1e-2] {
+            let d = TrowbridgeReitz::new(alpha, alpha);
+            let radius2 = |rng: &mut Rng| {
+                let m = d.sample_visible(vec3(0.0, 0.0, 1.0), rng.f32x2());
+                let r2 = f64::from(m.x * m.x + m.y * m.y) / f64::from(m.z * m.z * alpha * alpha);
+                Some(r2 / (1.0 + r2))
+            };
+            chi2_1d(radius2, |_| 1.0, [0.0, 1.0], 50_000, 2).assert_ok("slopes", 2);
+        }
+    }
+
+    #[test]
+    fn smooth_below_a_thousandth() {
+        assert!(TrowbridgeReitz::new(9e-4, 9e-4).is_smooth() && !TrowbridgeReitz::new(0.0, 0.1).is_smooth());
+        assert_eq!(TrowbridgeReitz::new(0.0, 0.1).alpha_x, 1e-4);
+        assert_eq!(TrowbridgeReitz::roughness_to_alpha(0.25), 0.5);
+    }
+}

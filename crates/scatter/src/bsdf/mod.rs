@@ -167,3 +167,8 @@ impl<const N: usize> Bsdf<N> {
         self
     }
 }
+
+#[cfg(test)]
+mod delta_tests;
+#[cfg(test)]
+mod tests;

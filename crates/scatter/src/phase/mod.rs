@@ -134,3 +134,10 @@ impl PhaseFunction {
 fn drawn<const N: usize>(angle: Deflection, p: impl Fn(f32) -> Spectrum<N>) -> (Deflection, Spectrum<N>) {
     (angle, p(angle.versine))
 }
+
+#[cfg(test)]
+mod mixture_tests;
+#[cfg(test)]
+mod tabulated_tests;
+#[cfg(test)]
+mod tests;
