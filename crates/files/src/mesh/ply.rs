@@ -83,6 +83,8 @@ fn decode<R: BufRead>(stream: R, file_bytes: u64, ratio: u64, path: &Path) -> Re
     for element in &header.elements {
         builder.read_element(element, &mut body)?;
     }
+    // a gzip stream checks its sum only when its end is reached
+    body.finish().map_err(|e| read_error(path, body.place(), e))?;
     Ok(builder.mesh)
 }
 

@@ -47,6 +47,11 @@ impl<R: BufRead> Body<R> {
         Body { source, encoding, token: Vec::new() }
     }
 
+    /// Looks behind the last value, where more data may follow (and are left alone).
+    pub(super) fn finish(&mut self) -> io::Result<()> {
+        self.source.stream.fill_buf().map(|_| ())
+    }
+
     /// Where the next value is.
     pub(super) fn place(&self) -> Place {
         match self.encoding {
