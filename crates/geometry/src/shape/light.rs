@@ -5,11 +5,14 @@
 //! where a shape is seen under too small or too large an angle for its solid-angle map, and for shapes that have
 //! none, points come from the area and densities are converted by `r^2 / |cos|`.
 
+use super::sphere::{Cone, Sphere};
 use super::{LocalSurface, Shape, ShapeGroup, bilinear::Patch, triangle::cross_edges};
 use crate::dvec::DVec3;
 use crate::surface::{Rounding, ShapeSample};
 use crate::{Hit, SurfacePoint};
-use tyndall_base::warp::{pdf_bilinear, sample_bilinear, sample_uniform_triangle};
+use tyndall_base::warp::{
+    SphericalRectangle, SphericalTriangle, pdf_bilinear, sample_bilinear, sample_uniform_triangle,
+};
 use tyndall_base::{Vec3, vec::vec2};
 
 impl LocalSurface {
@@ -76,39 +79,74 @@ impl ShapeGroup {
     }
 
     /// A point of primitive `prim` for lighting `reference`; `None` where the sample is seen edge-on.
+    ///
+    /// Uniform in solid angle on triangles (Arvo 1995), rectangles (Urena et al. 2013) and whole spheres from outside.
     pub fn sample_solid_angle(&self, prim: u32, reference: Vec3, u: [f32; 2]) -> Option<ShapeSample> {
-        if let Shape::Sphere(s) = &self.shape
-            && let Some(cone) = s.cone_from(reference.into())
-        {
-            return Some(s.sample_cone(&cone, u, self));
+        let along = |w: Vec3, pdf: f32| {
+            Some(self.local_surface(prim, reference.into(), w.into()).sampled(f64::from(pdf)))
+        };
+        match self.view(prim, reference) {
+            View::Triangle(t) => along(t.sample(u), t.pdf()),
+            View::Rectangle(r) => along(r.sample(u), r.pdf()),
+            View::Sphere(s, cone) => Some(s.sample_cone(&cone, u, self)),
+            View::Area => {
+                let sample = self.sample_area(prim, u);
+                let pdf = per_solid_angle(sample.pdf, reference, sample.p, sample.n)?;
+                Some(ShapeSample { pdf, ..sample })
+            }
         }
-        let sample = self.sample_area(prim, u);
-        let pdf = per_solid_angle(sample.pdf, reference, sample.p, sample.n)?;
-        Some(ShapeSample { pdf, ..sample })
     }
 
     /// Density per steradian with which [`Self::sample_solid_angle`] chooses, from `reference`, the point of `hit`.
     pub fn pdf_solid_angle(&self, reference: Vec3, hit: &Hit, surface: &SurfacePoint) -> f32 {
-        if let Shape::Sphere(s) = &self.shape
-            && let Some(cone) = s.cone_from(reference.into())
-        {
-            return cone.pdf() as f32;
+        match self.view(hit.prim, reference) {
+            View::Triangle(t) => t.pdf(),
+            View::Rectangle(r) => r.pdf(),
+            View::Sphere(_, cone) => cone.pdf() as f32,
+            View::Area => {
+                let pdf = self.pdf_area(hit, surface);
+                per_solid_angle(pdf, reference, surface.p, surface.ng).unwrap_or(0.0)
+            }
         }
-        per_solid_angle(self.pdf_area(hit, surface), reference, surface.p, surface.ng).unwrap_or(0.0)
+    }
+
+    /// [`Self::pdf_solid_angle`] for a point known by position, normal and the density per area of
+    /// [`Self::sample_area`] there.
+    pub fn pdf_solid_angle_at(&self, prim: u32, reference: Vec3, p: Vec3, n: Vec3, pdf_area: f32) -> f32 {
+        match self.view(prim, reference) {
+            View::Triangle(t) => t.pdf(),
+            View::Rectangle(r) => r.pdf(),
+            View::Sphere(_, cone) => cone.pdf() as f32,
+            View::Area => per_solid_angle(pdf_area, reference, p, n).unwrap_or(0.0),
+        }
+    }
+
+    /// How `prim` is sampled from `reference`.
+    fn view(&self, prim: u32, reference: Vec3) -> View<'_> {
+        match &self.shape {
+            Shape::Triangles(m) => {
+                let corners = m.corners(prim).map(|p| p - reference);
+                SphericalTriangle::new(corners).map_or(View::Area, View::Triangle)
+            }
+            Shape::Bilinear(m) if m.patch(prim).is_rectangle() => {
+                let [p00, p10, p01, _] = m.corners(prim);
+                let seen = SphericalRectangle::new(p00 - reference, p10 - p00, p01 - p00);
+                seen.map_or(View::Area, View::Rectangle)
+            }
+            Shape::Sphere(s) => {
+                s.cone_from(reference.into()).map_or(View::Area, |cone| View::Sphere(s, cone))
+            }
+            Shape::Bilinear(_) | Shape::Disk(_) => View::Area,
+        }
     }
 }
 
-impl ShapeGroup {
-    /// [`Self::pdf_solid_angle`] for a point known by its position, normal and density per area, as a
-    /// [`ShapeSample`] from [`Self::sample_area`] has them.
-    pub fn pdf_solid_angle_at(&self, _prim: u32, reference: Vec3, p: Vec3, n: Vec3, pdf_area: f32) -> f32 {
-        if let Shape::Sphere(s) = &self.shape
-            && let Some(cone) = s.cone_from(reference.into())
-        {
-            return cone.pdf() as f32;
-        }
-        per_solid_angle(pdf_area, reference, p, n).unwrap_or(0.0)
-    }
+/// The solid angle in which a primitive is sampled.
+enum View<'a> {
+    Triangle(SphericalTriangle),
+    Rectangle(SphericalRectangle),
+    Sphere(&'a Sphere, Cone),
+    Area,
 }
 
 /// A density per area as one per solid angle; `None` where that is infinite or meaningless.
