@@ -173,3 +173,28 @@ fn nonsense_is_refused() {
     assert!(Curve::dense(400, &[1.0], Outside::Hold).is_err());
     assert!(Curve::step(&[400.0, 500.0], &[1.0, 2.0], Outside::Hold).is_err());
 }
+
+proptest::proptest! {
+    #[test]
+    fn any_table_is_straight_between_its_points(
+        gaps in proptest::collection::vec((0.01f32..40.0, -5.0f32..5.0), 2..60),
+        at in 0.0f32..1.0,
+    ) {
+        let mut l = 200.0;
+        let lambda: Vec<f32> = gaps.iter().map(|g| { l += g.0; l }).collect();
+        let values: Vec<f32> = gaps.iter().map(|g| g.1).collect();
+        let curve = Curve::linear(&lambda, &values, Outside::Hold).unwrap();
+        let l = 190.0 + at * (lambda[lambda.len() - 1] - 180.0);
+        let i = lambda.partition_point(|&k| k <= l);
+        let expected = match i {
+            0 => values[0],
+            i if i == lambda.len() => values[i - 1],
+            i => {
+                let t = f64::from(l - lambda[i - 1]) / f64::from(lambda[i] - lambda[i - 1]);
+                (f64::from(values[i - 1]) * (1.0 - t) + f64::from(values[i]) * t) as f32
+            }
+        };
+        // values up to 5, some roundings of 3e-7
+        proptest::prop_assert!((curve.eval(l) - expected).abs() < 5e-6, "{} {}", curve.eval(l), expected);
+    }
+}

@@ -5,6 +5,8 @@ use crate::wavelengths::CONTINUUM;
 
 /// `u` moves on this grid, so cumulative sums rounded to it are exact probabilities.
 const GRID: f64 = 16_777_216.0;
+/// The greatest number below 1 on that grid.
+const LAST: f32 = 1.0 - 1.0 / 16_777_216.0;
 /// Buckets of the guide table.
 const GUIDE: usize = 4096;
 
@@ -48,6 +50,8 @@ impl Density {
     /// `(wavelength [nm], density [1/nm] or probability, line or CONTINUUM)` for `u` in \[0, 1).
     #[inline(always)]
     pub fn sample(&self, u: f32) -> (f32, f32, u16) {
+        // sums that were rounded up to 1 belong to the last cell
+        let u = if u < LAST { u } else { LAST };
         if u >= self.continuum {
             return self.sample_line(u);
         }

@@ -47,7 +47,8 @@ impl Density {
                 .collect();
             seen.extend(lines.iter().map(|l| product(l.lambda) * f64::from(l.power)));
             let total: f64 = seen.iter().sum();
-            if total > 0.0 && total.is_finite() {
+            require(total.is_finite(), "light that the film sees", "finite values on its range", total)?;
+            if total > 0.0 {
                 norm.iter_mut().zip(&seen).for_each(|(n, s)| *n += (s / total) * (s / total));
             }
         }

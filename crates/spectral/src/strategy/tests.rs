@@ -124,6 +124,16 @@ fn rotation_is_exact_on_the_grid_of_random_numbers() {
 }
 
 #[test]
+fn numbers_at_and_beyond_the_ends_stay_inside() {
+    for (name, density) in densities() {
+        for u in [0.0, 1e-30, 1.0 - 6e-8, 1.0, f32::NAN] {
+            let (lambda, pdf, _) = density.sample(u);
+            assert!(density.range().contains(lambda) && pdf > 0.0, "{name} at {u}");
+        }
+    }
+}
+
+#[test]
 fn reported_densities_are_those_of_the_cells_drawn() {
     for (name, density) in densities() {
         let sampler = WavelengthSampler::from(density.clone());
@@ -229,6 +239,8 @@ fn light_that_the_film_cannot_see_is_refused() {
             .is_err()
     );
     assert!(Density::uniform_with_lines(LambdaRange::VISIBLE, &mercury(), 1.0).is_err());
+    let narrow = Emission::from(Curve::linear(&[400.0, 700.0], &[1.0, 1.0], Outside::Error).unwrap());
+    assert!(Density::light(LambdaRange::VISIBLE, matching_functions(), &[(1.0, &narrow)]).is_err());
     let outside = [Line { lambda: 1064.0, power: 1.0 }];
     let without = Density::uniform_with_lines(LambdaRange::VISIBLE, &outside, 0.5).unwrap();
     assert_eq!(without.lines().count(), 0);
