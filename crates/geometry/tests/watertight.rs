@@ -11,10 +11,10 @@ use tyndall_geometry::{
 
 /// A point of a random triangle: a vertex, a point of an edge, or within a few ulps of one.
 fn target(mesh: &TriangleMesh, rng: &mut Rng) -> Vec3 {
-    let prim = (rng.bits() % mesh.indices().len() as u64) as u32;
+    let prim = rng.below(mesh.indices().len() as u64) as u32;
     let [a, b, _] = mesh.corners(prim);
-    let q = if rng.bits() % 4 == 0 { a } else { a + (b - a) * rng.unit() };
-    let mut nudge = |x: f32| match rng.bits() % 4 {
+    let q = if rng.below(4) == 0 { a } else { a + (b - a) * rng.unit() };
+    let mut nudge = |x: f32| match rng.below(4) {
         0 => x.next_up(),
         1 => x.next_down(),
         _ => x,
@@ -34,7 +34,7 @@ fn leaks(
         let o = origin(&mut rng);
         let v = target(mesh, &mut rng) - o;
         // unit and plain directions, and some along an axis plane
-        let d = if rng.bits() % 2 == 0 { v.normalize() } else { v };
+        let d = if rng.below(2) == 0 { v.normalize() } else { v };
         accel.intersect(&Ray::new(o, d)).is_none() || !accel.occluded(&Ray::new(o, d))
     };
     (0..rays).filter(|i| leak(i)).count()

@@ -22,9 +22,9 @@ fn rectangle(z: f32, to_world: &Transform, patches: bool) -> Shape {
     let p = [(-HALF, -HALF), (HALF, -HALF), (-HALF, HALF), (HALF, HALF)];
     let p = p.map(|(x, y)| to_world.point(vec3(x, y, z))).to_vec();
     if patches {
-        Shape::Bilinear(BilinearMesh::new(vec![[0, 1, 2, 3]], p).unwrap())
+        Shape::Bilinear(BilinearMesh::new(vec![[0, 1, 2, 3]], p).expect("a valid mesh"))
     } else {
-        Shape::Triangles(TriangleMesh::new(vec![[0, 1, 3], [0, 3, 2]], p).unwrap())
+        Shape::Triangles(TriangleMesh::new(vec![[0, 1, 3], [0, 3, 2]], p).expect("a valid mesh"))
     }
 }
 
@@ -35,7 +35,7 @@ fn scene(to_world: &Transform, patches: bool) -> Accel {
 /// A point of the slab, at all scales of distance from its faces.
 fn inside(rng: &mut Rng, to_world: &Transform, least: f32) -> Vec3 {
     let depth = least.max(tyndall_base::math::exp(-12.0 * rng.unit()) * 0.5);
-    let z = if rng.bits() % 2 == 0 { depth } else { 1.0 - depth };
+    let z = if rng.below(2) == 0 { depth } else { 1.0 - depth };
     to_world.point(vec3(rng.signed() * 3900.0, rng.signed() * 3900.0, z))
 }
 

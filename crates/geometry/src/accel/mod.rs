@@ -232,6 +232,17 @@ impl Accel {
         &self.instances
     }
 
+    /// A hash of the trees (FNV-1a over nodes and blocks): equal trees have equal fingerprints on every machine of the
+    /// same byte order.
+    pub fn fingerprint(&self) -> u64 {
+        let levels = self.objects.iter().chain([&self.world]);
+        let bytes = levels.flat_map(|l| {
+            let nodes: &[u8] = bytemuck::cast_slice(&l.nodes);
+            nodes.iter().chain(bytemuck::cast_slice::<_, u8>(&l.blocks))
+        });
+        bytes.fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3))
+    }
+
     /// What was built.
     pub fn stats(&self) -> BuildStats {
         self.stats
