@@ -41,6 +41,7 @@ fn assert_ulps(name: &str, (e, x): (Double, f32), bound: Double) {
 }
 
 type Double = ::std::primitive::f64;
+type Function = fn(Double) -> Double;
 
 #[test]
 fn errors_stay_within_the_stated_bounds() {
@@ -166,7 +167,7 @@ fn golden_double(f: impl Fn(Double) -> Double) -> u64 {
 #[test]
 fn double_precision_bits_are_the_same_on_every_machine() {
     use super::f64 as double;
-    let functions: [fn(Double) -> Double; 18] = [
+    let functions: [Function; 18] = [
         double::exp,
         double::exp_m1,
         double::ln,
@@ -193,7 +194,7 @@ fn double_precision_bits_are_the_same_on_every_machine() {
 #[test]
 fn double_precision_is_near_the_platform() {
     use super::f64 as double;
-    let pairs: [[fn(Double) -> Double; 2]; 7] = [
+    let pairs: [[Function; 2]; 7] = [
         [double::exp, Double::exp],
         [double::ln, Double::ln],
         [double::sin, Double::sin],
