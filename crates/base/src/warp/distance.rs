@@ -48,6 +48,9 @@ fn opacity(depth: f32) -> f32 {
     if depth < THIN { series } else { 1.0 - exp(-depth) }
 }
 
+/// The greatest `f32` angle below `pi / 2`, whose tangent is positive: 1.3e7.
+const STEEPEST: f32 = 1.570_796_251_296_997_1;
+
 /// Equiangular sampling of a distance on a ray (Kulla & Fajardo 2012): the density follows the inverse square of the
 /// distance to a point, here called the light.
 ///
@@ -65,14 +68,17 @@ pub struct Equiangular {
 
 impl Equiangular {
     /// For a ray with unit direction, `delta` the projection of the light on it and `d` the distance of the light
-    /// from it, both in metres, over `[t_min, t_max]`.
+    /// from it, both in metres, over `[t_min, t_max]`; `t_max` may be infinite.
     ///
-    /// A light on the ray itself gets the smallest useful distance, a 10^-4 of the segment, so that the density stays finite.
+    /// A light on the ray itself is moved off it by 10^-4 of the segment (of the way to it, on an infinite one), so that
+    /// the density stays finite.
     #[inline(always)]
     pub fn new(delta: f32, d: f32, t_min: f32, t_max: f32) -> Self {
-        let d = d.max(1e-4 * (t_max - t_min)).max(f32::MIN_POSITIVE);
-        let (theta_a, theta_b) = (atan2(t_min - delta, d), atan2(t_max - delta, d));
-        Self { delta, d, theta_a, theta_b, range: [t_min, t_max] }
+        let length = t_max - t_min;
+        let scale = if length < f32::INFINITY { length } else { (delta - t_min).abs() };
+        let d = d.max(1e-4 * scale).max(f32::MIN_POSITIVE);
+        let theta = |t: f32| atan2(t - delta, d).clamp(-STEEPEST, STEEPEST);
+        Self { delta, d, theta_a: theta(t_min), theta_b: theta(t_max), range: [t_min, t_max] }
     }
 
     /// A distance within the segment [m].

@@ -98,6 +98,18 @@ fn distances_follow_their_density() {
 }
 
 #[test]
+fn equiangular_reaches_to_infinity() {
+    for (delta, d) in [(2.0, 0.5), (-3.0, 1.0), (0.7, 0.0)] {
+        let e = Equiangular::new(delta, d, 0.0, f32::INFINITY);
+        assert!((0..1000).all(|i| e.pdf(e.sample(i as f32 / 1000.0)).is_finite()));
+        let last = e.sample(TOP);
+        assert!(last > 1e3 * d.max(1e-4) && last.is_finite(), "{last}");
+    }
+    let e = Equiangular::new(2.0, 0.5, 0.0, f32::INFINITY);
+    line(|u| e.sample(u), |t| e.pdf(t), [0.0, 30.0]).assert_ok("equiangular to infinity", FAMILY);
+}
+
+#[test]
 fn inverses_lead_back() {
     let mut rng = Rng::new(9);
     for _ in 0..10_000 {
