@@ -1,6 +1,6 @@
 use crate::math::{atan2, exp, ln, tan};
 
-/// Distance to a collision in a medium of extinction `sigma` [1/m]: density `sigma e^(-sigma t)` on `[0, inf)`.
+/// Distance to a collision in a medium of extinction `sigma` \[1/m\]: density `sigma e^(-sigma t)` on `[0, inf)`.
 ///
 /// `t = -ln(1 - u) / sigma`; infinite when `sigma` is zero (and finite `u > 0`), zero when `u` is zero.
 #[inline(always)]
@@ -81,7 +81,7 @@ impl Equiangular {
         Self { delta, d, theta_a: theta(t_min), theta_b: theta(t_max), range: [t_min, t_max] }
     }
 
-    /// A distance within the segment [m].
+    /// A distance within the segment \[m\].
     #[inline(always)]
     pub fn sample(&self, u: f32) -> f32 {
         let t = self.delta + self.d * tan(self.theta_a + u * (self.theta_b - self.theta_a));

@@ -22,7 +22,7 @@ pub struct SphericalRectangle {
 }
 
 impl SphericalRectangle {
-    /// The smallest solid angle that is sampled [sr].
+    /// The smallest solid angle that is sampled \[sr\].
     pub const SMALLEST: f64 = 1e-9;
 
     /// From a corner, as seen from the reference point, and the two sides that leave it at right angles.
@@ -49,7 +49,7 @@ impl SphericalRectangle {
         usable.then_some(rectangle)
     }
 
-    /// The solid angle [sr].
+    /// The solid angle \[sr\].
     #[inline(always)]
     pub fn solid_angle(&self) -> f32 {
         self.solid_angle as f32

@@ -20,7 +20,7 @@ pub struct SphericalTriangle {
 }
 
 impl SphericalTriangle {
-    /// The smallest solid angle that is sampled [sr].
+    /// The smallest solid angle that is sampled \[sr\].
     pub const SMALLEST: f64 = 1e-9;
 
     /// From the three vertices seen from the origin, not necessarily unit vectors; none where the solid angle is below
@@ -39,7 +39,7 @@ impl SphericalTriangle {
         usable.then_some(Self { a, b, c, toward_c, cos_alpha, sin_alpha, solid_angle })
     }
 
-    /// The solid angle [sr].
+    /// The solid angle \[sr\].
     #[inline(always)]
     pub fn solid_angle(&self) -> f32 {
         self.solid_angle as f32
