@@ -66,17 +66,33 @@ pub fn spawn_origin(p: Vec3, rounding: &Rounding, n: Vec3, dir: Vec3) -> Vec3 {
     vec3(step(0), step(1), step(2))
 }
 
-/// The ray from `o` that ends just short of `target`, with unit direction; `None` when they coincide.
+/// The ray from `o` that ends just short of the free point `target`, with unit direction; `None` when they coincide.
 ///
 /// The margin is `2^-22` of the distance: what the rounding of an `f32` direction and of `t_max` can amount to.
 #[inline]
 pub fn segment(o: Vec3, target: Vec3, time: f32) -> Option<Ray> {
+    segment_short_of(o, target, 0.0, time)
+}
+
+/// [`segment`] to a point of a surface with normal `n`: across a slope, the direction's rounding (`2^-24` of the
+/// distance) moves the crossing by that over the cosine.
+#[inline]
+fn segment_to_surface(o: Vec3, target: Vec3, n: Vec3, time: f32) -> Option<Ray> {
+    let v = DVec3::from(target) - DVec3::from(o);
+    let cosine = v.dot(n.into()).abs() / v.length();
+    segment_short_of(o, target, HALF_ULP / cosine.max(1e-6), time)
+}
+
+const HALF_ULP: f64 = 1.0 / (1u32 << 24) as f64;
+
+#[inline]
+fn segment_short_of(o: Vec3, target: Vec3, margin: f64, time: f32) -> Option<Ray> {
     let v = DVec3::from(target) - DVec3::from(o);
     let length = v.length();
     if !(length > 0.0 && length.is_finite()) {
         return None;
     }
-    let t_max = (length * (1.0 - 1.0 / f64::from(1u32 << 22))) as f32;
+    let t_max = (length * (1.0 - 4.0 * HALF_ULP - margin)) as f32;
     Some(Ray { o, d: (v * (1.0 / length)).round(), t_max, time })
 }
 
@@ -130,7 +146,7 @@ impl SurfacePoint {
     /// The ray that ends just short of a sampled surface point.
     #[inline]
     pub fn spawn_to_sample(&self, sample: &ShapeSample) -> Option<Ray> {
-        segment(self.origin(sample.p - self.p), sample.origin(self.p), self.time)
+        segment_to_surface(self.origin(sample.p - self.p), sample.origin(self.p), sample.n, self.time)
     }
 
     /// Tangent frame about the shading normal with x along `dpdu`.
@@ -165,7 +181,7 @@ impl ShapeSample {
     /// The ray from the free point `o` that ends just short of the sample.
     #[inline]
     pub fn ray_from(&self, o: Vec3, time: f32) -> Option<Ray> {
-        segment(o, self.origin(o), time)
+        segment_to_surface(o, self.origin(o), self.n, time)
     }
 }
 

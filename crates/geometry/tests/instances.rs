@@ -1,4 +1,5 @@
 //! An instance is its object baked into the world.
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Samplers against their densities and against quadrature.
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod common;
 
@@ -113,6 +114,7 @@ fn solid_angle_sampling_agrees_with_plain_directions() {
                 let mut ray = Ray::new(o, w);
                 while let Some(h) = a.intersect(&ray) {
                     sheets += 1.0;
+                    assert!(sheets < 9.0, "{name}: endless at {h:?} of {ray:?}: {:?}", a.surface(&ray, &h));
                     ray = a.surface(&ray, &h).spawn(w);
                 }
                 sheets
@@ -168,10 +170,18 @@ fn solid_angle_densities_match_hits() {
                 let pdf = group.pdf_solid_angle(o, &hit, &surface);
                 assert!((pdf / s.pdf - 1.0).abs() < 2e-3, "{name}: {pdf} {}", s.pdf);
             }
-            // the ray to a sample is not stopped by the sample's own surface
+            // the ray to a sample is not stopped by the sample's own surface; a curved one may hide its far side
+            if graze && !["triangle", "rectangle", "parallelogram", "disk", "elliptic sector"].contains(&name)
+            {
+                continue;
+            }
             let ray = s.ray_from(o, 0.0).expect("apart");
             if let Some(h) = a.intersect(&ray) {
-                assert!((ray.at(h.t) - s.p).length() > 1e-3, "{name}: {s:?} hides itself from {o:?}");
+                assert!(
+                    (ray.at(h.t) - s.p).length() > 1e-3,
+                    "{name}: {s:?} hides itself from {o:?}: {ray:?} {h:?} cosine {}",
+                    w.dot(s.n)
+                );
             }
         }
     }

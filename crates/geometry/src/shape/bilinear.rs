@@ -187,10 +187,12 @@ impl Patch {
         self.dpdu(0.5).cross(self.dpdv(0.5)).normalize()
     }
 
-    /// The point and a bound on its error; for flat patches this covers the twist that the traversal left out.
+    /// The point and a bound on its error.
     pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         let (e, f, g) = (self.e * u, self.f * v, self.g * (u * v));
-        let twist = if self.is_flat() { self.g.abs() } else { DVec3::default() };
+        // flat: what the traversal's two triangles leave out; curved: what solving for u and v loses
+        let lost = 16.0 * NOISE * self.coordinate_size();
+        let extra = if self.is_flat() { self.g.abs() } else { dvec3(lost, lost, lost) };
         let size = |p: f64, e: f64, f: f64, g: f64| {
             if e == 0.0 && f == 0.0 && g == 0.0 {
                 0.0
@@ -203,7 +205,7 @@ impl Patch {
             size(self.p00.y, e.y, f.y, g.y),
             size(self.p00.z, e.z, f.z, g.z),
         );
-        (self.p00 + e + f + g, noise + twist)
+        (self.p00 + e + f + g, noise + extra)
     }
 
     /// (u, v) where the line meets the patch, clamped to it.

@@ -1,7 +1,7 @@
 //! Disks, annuli and sectors, with pbrt's parameters: in object space the plane `z = height`, normal +z;
 //! `u = phi / phi_max`, `v` runs from the rim to the inner radius.
 
-use super::{LocalSurface, NOISE, PrimHit, ShapeGroup, any_tangents, check, sphere::azimuth};
+use super::{LocalSurface, PrimHit, ShapeGroup, any_tangents, check, sphere::azimuth};
 use crate::dvec::{DVec3, dvec3};
 use crate::{Bounds3, GeometryError, ShapeSample, Transform};
 use std::f64::consts::PI;
@@ -90,14 +90,13 @@ impl Disk {
         LocalSurface { p: t.point64(q), noise: self.noise(q), ng: n, ns: n, dpdu, dpdv, uv }
     }
 
-    /// Rounding of the map; an axis-aligned disk is exact along its normal.
+    /// Rounding of the map, there and back; none along an axis normal to the disk in which the map is exact.
     fn noise(&self, q: DVec3) -> DVec3 {
         let m = self.to_world.matrix();
-        let noise = self.to_world.point_noise(q);
-        let exact = |k: usize| m[k][0] == 0.0 && m[k][1] == 0.0 && self.height * m[k][2] == 0.0;
-        let pick = |k: usize, n: f64| {
-            if exact(k) { 0.0 } else { n + NOISE * self.radius * (m[k][0].abs() + m[k][1].abs()) }
-        };
+        let noise = self.to_world.point_noise(q) * 16.0;
+        let returns = self.to_world.inverse().point64(self.to_world.point64(q)).z == self.height;
+        let exact = |k: usize| returns && m[k][0] == 0.0 && m[k][1] == 0.0 && self.height * m[k][2] == 0.0;
+        let pick = |k: usize, n: f64| if exact(k) { 0.0 } else { n };
         dvec3(pick(0, noise.x), pick(1, noise.y), pick(2, noise.z))
     }
 }

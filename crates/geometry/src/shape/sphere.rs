@@ -152,7 +152,8 @@ impl Sphere {
         let n = t.normal64(n).normalize();
         let n = if group.flips_normal() { -n } else { n };
         let rounding = dvec3(1.0, 1.0, 1.0) * (NOISE * self.radius);
-        let noise = t.point_noise(q) + t.spread(rounding);
+        // the way there and back through the transform, and the root
+        let noise = (t.point_noise(q) + t.spread(rounding)) * 16.0;
         LocalSurface {
             p: t.point64(q),
             noise,
