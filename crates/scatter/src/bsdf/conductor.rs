@@ -34,21 +34,15 @@ impl<const N: usize> Conductor<N> {
         visible.then(|| m.normalize())
     }
 
-    /// See [`Bsdf::eval`](super::Bsdf::eval).
+    /// See [`Bsdf::eval_pdf`](super::Bsdf::eval_pdf). The density is the same for every lane: normals have no colour.
     #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum<N> {
-        let Some(m) = self.half_vector(wo, wi) else { return Spectrum::ZERO };
-        let d = &self.distribution;
-        fresnel_conductor_n(wo.abs_dot(m), &self.eta, &self.k) * (0.25 * d.d(m) * d.g_over_cos_cos(wo, wi))
-    }
-
-    /// The same for every lane: the normals do not depend on the wavelength.
-    #[inline]
-    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> Spectrum<N> {
-        let Some(m) = self.half_vector(wo, wi) else { return Spectrum::ZERO };
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum<N>, Spectrum<N>) {
+        let Some(m) = self.half_vector(wo, wi) else { return (Spectrum::ZERO, Spectrum::ZERO) };
         let d = &self.distribution;
         // pdf_visible / (4 |wo . m|), with the cosine cancelled
-        Spectrum::splat(0.25 * d.g1_over_cos(wo) * d.d(m))
+        let lobe = 0.25 * d.d(m);
+        let f = fresnel_conductor_n(wo.abs_dot(m), &self.eta, &self.k) * (lobe * d.g_over_cos_cos(wo, wi));
+        (f, Spectrum::splat(lobe * d.g1_over_cos(wo)))
     }
 
     /// See [`Bsdf::sample`](super::Bsdf::sample).
@@ -60,6 +54,6 @@ impl<const N: usize> Conductor<N> {
         }
         let m = self.distribution.sample_visible(wo, u);
         let wi = reflect(wo, if wo.z < 0.0 { -m } else { m });
-        BsdfSample::smooth(self.eval(wo, wi), wi, self.pdf(wo, wi), 1.0, self.flags())
+        BsdfSample::smooth(self.eval_pdf(wo, wi), wi, 1.0, self.flags())
     }
 }

@@ -62,41 +62,23 @@ impl<const N: usize> Dielectric<N> {
         }
     }
 
-    /// See [`Bsdf::eval`](super::Bsdf::eval).
+    /// See [`Bsdf::eval_pdf`](super::Bsdf::eval_pdf). Each lane's density is what it would be if it were the hero: a
+    /// visible normal, then reflection with its own `F`; so `f` and `pdf` differ by masking and `1 / etap^2` alone.
     #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum<N> {
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum<N>, Spectrum<N>) {
         if self.distribution.is_smooth() || wo.z * wi.z == 0.0 {
-            return Spectrum::ZERO;
+            return (Spectrum::ZERO, Spectrum::ZERO);
         }
         let d = &self.distribution;
-        let g = d.g_over_cos_cos(wo, wi);
+        let (g, g1) = (d.g_over_cos_cos(wo, wi), d.g1_over_cos(wo));
         if wo.z * wi.z > 0.0 {
             let m = upward(wo + wi);
-            return fresnel_dielectric_n(wo.dot(m), &self.eta) * (0.25 * d.d(m) * g);
+            let lobe = fresnel_dielectric_n(wo.dot(m), &self.eta) * (0.25 * d.d(m));
+            return (lobe * g, lobe * g1);
         }
-        self.eta.map(|eta| {
-            let etap = relative(eta, wo);
-            let Some(half) = Refracting::new(wo, wi, etap) else { return 0.0 };
-            half.transmitted * d.d(half.m) * g * self.squeeze(etap)
-        })
-    }
-
-    /// Each lane's density were it the hero: a visible normal, then reflection with its own `F`.
-    #[inline]
-    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> Spectrum<N> {
-        if self.distribution.is_smooth() || wo.z * wi.z == 0.0 {
-            return Spectrum::ZERO;
-        }
-        let d = &self.distribution;
-        let g1 = d.g1_over_cos(wo);
-        if wo.z * wi.z > 0.0 {
-            let m = upward(wo + wi);
-            return fresnel_dielectric_n(wo.dot(m), &self.eta) * (0.25 * d.d(m) * g1);
-        }
-        self.eta.map(|eta| {
-            let Some(half) = Refracting::new(wo, wi, relative(eta, wo)) else { return 0.0 };
-            half.transmitted * d.d(half.m) * g1
-        })
+        let etap = self.eta.map(|eta| relative(eta, wo));
+        let lobe = etap.map(|etap| refracted(d, wo, wi, etap));
+        (lobe * etap.map(|etap| self.squeeze(etap)) * g, lobe * g1)
     }
 
     /// See [`Bsdf::sample`](super::Bsdf::sample).
@@ -133,7 +115,7 @@ impl<const N: usize> Dielectric<N> {
         if (wo.z * wi.z > 0.0) != side.is_reflection() {
             return None;
         }
-        BsdfSample::smooth(self.eval(wo, wi), wi, self.pdf(wo, wi), etap, side | BsdfFlags::GLOSSY)
+        BsdfSample::smooth(self.eval_pdf(wo, wi), wi, etap, side | BsdfFlags::GLOSSY)
     }
 }
 
@@ -144,26 +126,15 @@ fn upward(m: Vec3) -> Vec3 {
     if m.z < 0.0 { -m } else { m }
 }
 
-/// The microfacet that refracts `wo` into `wi`.
-struct Refracting {
-    m: Vec3,
-    /// `(1 - F) |wo . m| dm/dwi`, with `dm/dwi = |wi . m| / (wi . m + wo . m / etap)^2` (Walter et al. 2007, eq. 17).
-    transmitted: f32,
-}
-
-impl Refracting {
-    /// `None` where the half vector vanishes or the microfacet would be seen from behind.
-    #[inline(always)]
-    fn new(wo: Vec3, wi: Vec3, etap: f32) -> Option<Self> {
-        let h = wi * etap + wo;
-        if h.length_squared() == 0.0 {
-            return None;
-        }
-        let m = upward(h);
-        let (cos_o, cos_i) = (wo.dot(m), wi.dot(m));
-        let bend = cos_i + cos_o / etap;
-        let seen = cos_o * wo.z > 0.0 && cos_i * wi.z > 0.0 && bend != 0.0;
-        let t = transmittance(cos_o, cos_i, etap);
-        seen.then(|| Self { m, transmitted: t * (cos_o * cos_i).abs() / (bend * bend) })
-    }
+/// `D(m) (1 - F) |wo . m| dm/dwi` of the microfacet that refracts `wo` into `wi`, with
+/// `dm/dwi = |wi . m| / (wi . m + wo . m / etap)^2` (Walter et al. 2007, eq. 17); zero where it would be seen from behind.
+#[inline(always)]
+fn refracted(d: &TrowbridgeReitz, wo: Vec3, wi: Vec3, etap: f32) -> f32 {
+    // a half vector of zero length gives NaN here, which no comparison below accepts
+    let m = upward(wi * etap + wo);
+    let (cos_o, cos_i) = (wo.dot(m), wi.dot(m));
+    let bend = cos_i + cos_o / etap;
+    let value = d.d(m) * transmittance(cos_o, cos_i, etap) * (cos_o * cos_i).abs() / (bend * bend);
+    let seen = cos_o * wo.z > 0.0 && cos_i * wi.z > 0.0 && bend != 0.0;
+    if seen { value } else { 0.0 }
 }

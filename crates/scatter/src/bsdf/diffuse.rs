@@ -36,6 +36,6 @@ impl<const N: usize> Diffuse<N> {
         if wo.z < 0.0 {
             wi.z = -wi.z;
         }
-        BsdfSample::smooth(self.eval(wo, wi), wi, self.pdf(wo, wi), 1.0, Self::FLAGS)
+        BsdfSample::smooth((self.eval(wo, wi), self.pdf(wo, wi)), wi, 1.0, Self::FLAGS)
     }
 }

@@ -43,6 +43,6 @@ impl<const N: usize> DiffuseTransmission<N> {
             wi.z = -wi.z;
         }
         let side = if reflected { BsdfFlags::REFLECTION } else { BsdfFlags::TRANSMISSION };
-        BsdfSample::smooth(self.eval(wo, wi), wi, self.pdf(wo, wi), 1.0, side | BsdfFlags::DIFFUSE)
+        BsdfSample::smooth((self.eval(wo, wi), self.pdf(wo, wi)), wi, 1.0, side | BsdfFlags::DIFFUSE)
     }
 }

@@ -56,7 +56,7 @@ pub struct BsdfSample<const N: usize> {
 impl<const N: usize> BsdfSample<N> {
     /// A density; `None` where the hero's is zero or not finite (a grazing direction has no event).
     #[inline(always)]
-    fn smooth(f: Spectrum<N>, wi: Vec3, pdf: Spectrum<N>, eta: f32, flags: BsdfFlags) -> Option<Self> {
+    fn smooth((f, pdf): (Spectrum<N>, Spectrum<N>), wi: Vec3, eta: f32, flags: BsdfFlags) -> Option<Self> {
         (pdf.hero() > 0.0 && pdf.hero().is_finite()).then_some(Self { f, wi, pdf, eta, flags })
     }
 
@@ -96,8 +96,8 @@ impl<const N: usize> Bsdf<N> {
         match self {
             Self::Diffuse(b) => b.eval(wo, wi),
             Self::DiffuseTransmission(b) => b.eval(wo, wi),
-            Self::Conductor(b) => b.eval(wo, wi),
-            Self::Dielectric(b) => b.eval(wo, wi),
+            Self::Conductor(b) => b.eval_pdf(wo, wi).0,
+            Self::Dielectric(b) => b.eval_pdf(wo, wi).0,
             Self::ThinDielectric(_) => Spectrum::ZERO,
         }
     }
@@ -108,9 +108,21 @@ impl<const N: usize> Bsdf<N> {
         match self {
             Self::Diffuse(b) => b.pdf(wo, wi),
             Self::DiffuseTransmission(b) => b.pdf(wo, wi),
-            Self::Conductor(b) => b.pdf(wo, wi),
-            Self::Dielectric(b) => b.pdf(wo, wi),
+            Self::Conductor(b) => b.eval_pdf(wo, wi).1,
+            Self::Dielectric(b) => b.eval_pdf(wo, wi).1,
             Self::ThinDielectric(_) => Spectrum::ZERO,
+        }
+    }
+
+    /// [`eval`](Self::eval) and [`pdf`](Self::pdf) together: half the work of both for rough surfaces.
+    #[inline(always)]
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Spectrum<N>, Spectrum<N>) {
+        match self {
+            Self::Diffuse(b) => (b.eval(wo, wi), b.pdf(wo, wi)),
+            Self::DiffuseTransmission(b) => (b.eval(wo, wi), b.pdf(wo, wi)),
+            Self::Conductor(b) => b.eval_pdf(wo, wi),
+            Self::Dielectric(b) => b.eval_pdf(wo, wi),
+            Self::ThinDielectric(_) => (Spectrum::ZERO, Spectrum::ZERO),
         }
     }
 

@@ -95,6 +95,7 @@ fn a_sample_carries_eval_and_pdf() {
             let wo = Vec3::from(rng.direction());
             let Some(s) = bsdf.sample(wo, rng.f32(), rng.f32x2()) else { continue };
             assert_eq!((s.f, s.pdf), (bsdf.eval(wo, s.wi), bsdf.pdf(wo, s.wi)), "{name}");
+            assert_eq!((s.f, s.pdf), bsdf.eval_pdf(wo, s.wi), "{name}");
             assert_eq!(s.flags.is_reflection(), wo.z * s.wi.z > 0.0, "{name}");
             assert!((s.wi.length() - 1.0).abs() < 1e-5 && !s.flags.is_delta(), "{name}");
             assert!(s.f.is_finite() && s.pdf.is_finite() && s.f.min_lane() >= 0.0, "{name}: {s:?}");

@@ -13,7 +13,7 @@ use super::invert::invert_increasing;
 use crate::error::{ScatterError, require};
 use std::f64::consts::PI;
 use std::sync::Arc;
-use tyndall_base::math::f64::{exp, exp_m1, ln, pow};
+use tyndall_base::math::f64::{exp, exp_m1, ln};
 
 /// `1 - cos` of 1 mrad.
 const CORE: f64 = 5e-7;
@@ -27,6 +27,8 @@ pub struct FournierForand {
     mu: f64,
     /// `(1 - cos theta, fraction of light within theta)`
     brackets: Arc<[(f64, f64)]>,
+    /// `(1 - delta_pi^nu) / ((delta_pi - 1) delta_pi^nu)`
+    backward: f64,
     mean_cosine: f32,
 }
 
@@ -38,8 +40,10 @@ impl FournierForand {
         require(mu > 3.0 && mu < 5.0, "Junge slope mu of Fournier-Forand", "3 < mu < 5", mu)?;
         let step = ln(2.0 / CORE) / (BRACKETS - 1) as f64;
         let knot = |i: usize| if i + 1 == BRACKETS { 2.0 } else { CORE * exp(step * i as f64) };
-        let mut model = Self { n, mu, brackets: Arc::from([]), mean_cosine: 0.0 };
-        model.brackets = (0..BRACKETS).map(knot).map(|v| (v, model.cumulative(v))).collect();
+        let mut model = Self { n, mu, brackets: Arc::from([]), backward: 0.0, mean_cosine: 0.0 };
+        let (d_nu, a, _) = model.quotients(model.delta(2.0));
+        model.backward = -a / d_nu;
+        model.brackets = (0..BRACKETS).map(knot).map(|v| (v, model.cdf_and_density(v).0)).collect();
         model.mean_cosine = model.integrate_cosine() as f32;
         Ok(model)
     }
@@ -57,53 +61,41 @@ impl FournierForand {
         0.5 * (3.0 - self.mu)
     }
 
-    /// The quotients `a = (1 - delta^nu) / (1 - delta)` and `b = (nu - a) / (1 - delta)`, which are 0/0 at `delta = 1`.
-    fn quotients(&self, delta: f64) -> (f64, f64) {
+    /// `delta^nu` and the quotients `a = (1 - delta^nu) / (1 - delta)`, `b = (nu - a) / (1 - delta)`, 0/0 at `delta = 1`.
+    fn quotients(&self, delta: f64) -> (f64, f64, f64) {
         let (nu, e) = (self.nu(), delta - 1.0);
         if e.abs() < 1e-3 {
             // binomial series of (1 + e)^nu
             let c2 = 0.5 * (nu - 1.0);
             let c3 = c2 * (nu - 2.0) / 3.0;
             let c4 = c3 * (nu - 3.0) / 4.0;
-            let tail = nu * (c2 + e * (c3 + e * c4));
-            return (nu + e * tail, tail);
+            let b = nu * (c2 + e * (c3 + e * c4));
+            let a = nu + e * b;
+            return (1.0 + e * a, a, b);
         }
-        let a = exp_m1(nu * ln(delta)) / e;
-        (a, (a - nu) / e)
+        let d_nu_m1 = exp_m1(nu * ln(delta));
+        let a = d_nu_m1 / e;
+        (1.0 + d_nu_m1, a, (a - nu) / e)
     }
 
-    /// The constant of the symmetric term.
-    fn backward(&self) -> f64 {
-        let delta = self.delta(2.0);
-        -self.quotients(delta).0 / pow(delta, self.nu())
-    }
-
-    /// The density of the formula \[1/sr\].
-    fn density(&self, versine: f64) -> f64 {
-        let (delta, s) = (self.delta(versine), 0.5 * versine);
-        let (a, b) = self.quotients(delta);
+    /// Fraction of the light within the angle (Fournier & Jonasz 1999, eq. 9, with the symmetric term integrated), and the
+    /// density of the formula \[1/sr\].
+    fn cdf_and_density(&self, versine: f64) -> (f64, f64) {
+        let (delta, s, c) = (self.delta(versine), 0.5 * versine, 1.0 - versine);
+        let (d_nu, a, b) = self.quotients(delta);
+        // (1 - d^(nu + 1)) / (1 - d) = 1 + d a
+        let cdf = (1.0 + delta * a - a * s) / d_nu + 0.125 * self.backward * c * (1.0 - c * c);
         // nu (1 - d) - (1 - d^nu) = (1 - d)(nu - a) = (1 - d)^2 b, and
         // d (1 - d^nu) - nu (1 - d) = (1 - d)(d a - nu) = -(1 - d)^2 (a + b)
-        let c = 1.0 - versine;
-        (b - (a + b) / s) / (4.0 * PI * pow(delta, self.nu()))
-            + self.backward() * (3.0 * c * c - 1.0) / (16.0 * PI)
-    }
-
-    /// Fraction of the light within the angle (Fournier & Jonasz 1999, eq. 9, with the symmetric term integrated).
-    fn cumulative(&self, versine: f64) -> f64 {
-        let (delta, s) = (self.delta(versine), 0.5 * versine);
-        let (a, _) = self.quotients(delta);
-        let d_nu = pow(delta, self.nu());
-        // (1 - d^(nu + 1)) / (1 - d) = 1 + d a
-        let c = 1.0 - versine;
-        (1.0 + delta * a - a * s) / d_nu + 0.125 * self.backward() * c * (1.0 - c * c)
+        let p = (b - (a + b) / s) / (4.0 * PI * d_nu) + self.backward * (3.0 * c * c - 1.0) / (16.0 * PI);
+        (cdf, p)
     }
 
     /// `p` \[1/sr\] at `v = 1 - cos theta`.
     #[inline]
     pub fn eval(&self, versine: f32) -> f32 {
         let v = f64::from(versine);
-        let p = if v < CORE { self.brackets[0].1 / (2.0 * PI * CORE) } else { self.density(v) };
+        let p = if v < CORE { self.brackets[0].1 / (2.0 * PI * CORE) } else { self.cdf_and_density(v).1 };
         p as f32
     }
 
@@ -118,8 +110,11 @@ impl FournierForand {
             i => {
                 let ((v0, f0), (v1, f1)) = (self.brackets[i - 1], self.brackets[i]);
                 let guess = v0 + (v1 - v0) * (u - f0) / (f1 - f0);
-                let cdf = |v: f64| (self.cumulative(v), 2.0 * PI * self.density(v));
-                invert_increasing(cdf, u, guess, [v0, v1])
+                let cdf_and_slope = |v: f64| {
+                    let (cdf, p) = self.cdf_and_density(v);
+                    (cdf, 2.0 * PI * p)
+                };
+                invert_increasing(cdf_and_slope, u, guess, [v0, v1])
             }
         };
         Deflection::from_versine(versine as f32)
@@ -138,7 +133,7 @@ impl FournierForand {
     }
 
     fn above_simpson(&self, a: f64, b: f64) -> f64 {
-        let above = |v: f64| 1.0 - self.cumulative(v);
+        let above = |v: f64| 1.0 - self.cdf_and_density(v).0;
         (b - a) / 6.0 * (above(a) + 4.0 * above(0.5 * (a + b)) + above(b))
     }
 }

@@ -2,14 +2,14 @@
 
 /// The `x` in \[`lo`, `hi`\] where an increasing function reaches `target`; `f(x)` gives value and slope.
 ///
-/// Newton's steps from `x`, halved into the bracket where they leave it: it always ends, within 1e-13 of the bracket.
+/// Newton's steps from `x`, halved into the bracket where they leave it: it always ends, within 1e-10 of the bracket.
 pub(super) fn invert_increasing(
     f: impl Fn(f64) -> (f64, f64),
     target: f64,
     mut x: f64,
     [mut lo, mut hi]: [f64; 2],
 ) -> f64 {
-    let tolerance = 1e-13 * (hi - lo);
+    let tolerance = 1e-10 * (hi - lo);
     for _ in 0..64 {
         let (value, slope) = f(x);
         if value < target {

@@ -6,7 +6,7 @@
 use super::deflection::Deflection;
 use crate::error::{ScatterError, require_curve};
 use std::f32::consts::FRAC_1_PI;
-use tyndall_base::math::f64::cbrt;
+use tyndall_base::math::pow;
 use tyndall_spectral::curve::Curve;
 use tyndall_spectral::{Spectrum, Wavelengths};
 
@@ -17,6 +17,13 @@ const MAX_DEPOLARISATION: f32 = 6.0 / 7.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rayleigh {
     depolarisation: Curve,
+}
+
+/// The cube root of `y > 0`: single precision, then one step of Newton's method.
+#[inline(always)]
+fn cube_root(y: f64) -> f64 {
+    let t = f64::from(pow(y as f32, 1.0 / 3.0));
+    (2.0 * t + y / (t * t)) * (1.0 / 3.0)
 }
 
 impl Rayleigh {
@@ -55,7 +62,7 @@ impl Rayleigh {
         let a = (1.0 + 3.0 * gamma) / (1.0 - gamma);
         let q = (1.0 + 3.0 * a) * (f64::from(u) - 0.5);
         // of the two cube roots, whose product is -a, take the one without cancellation
-        let t = cbrt(q.abs() + (q * q + a * a * a).sqrt());
+        let t = cube_root(q.abs() + (q * q + a * a * a).sqrt());
         let cos = (t - a / t).copysign(q);
         Deflection::from_versine((1.0 - cos) as f32)
     }
