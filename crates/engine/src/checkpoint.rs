@@ -39,7 +39,7 @@ pub struct Resumed {
 }
 
 impl Checkpoints {
-    /// Checkpoints in `path`, one per `interval` (60 s is usual).
+    /// Checkpoints in `path`, one per `interval` (60 s is usual; zero: after every patch, whatever that costs).
     pub fn new(path: impl Into<PathBuf>, interval: Duration) -> Self {
         Self { path: path.into(), interval, faults: Arc::new(NoFaults) }
     }
@@ -137,7 +137,8 @@ impl Timer {
     }
 
     pub fn is_due(&self, checkpoints: &Checkpoints) -> bool {
-        self.last.elapsed() >= checkpoints.interval.max(self.cost * SHARE)
+        let interval = checkpoints.interval;
+        interval.is_zero() || self.last.elapsed() >= interval.max(self.cost * SHARE)
     }
 
     /// Runs a save and takes its time.

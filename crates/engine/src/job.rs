@@ -201,8 +201,13 @@ impl Job {
 
     /// Hash of [`Job::identity`].
     pub fn hash(&self) -> String {
-        hash_of(&self.identity())
+        identity_hash(&self.identity())
     }
+}
+
+/// Hash of an identity: that of [`Job::hash`].
+pub fn identity_hash(identity: &[(String, String)]) -> String {
+    hash_of(&identity)
 }
 
 /// Hash of a guide; `none` for an empty one.

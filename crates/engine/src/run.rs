@@ -257,4 +257,3 @@ impl<'r, 's> Driver<'r, 's> {
         }
     }
 }
-

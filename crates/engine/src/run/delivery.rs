@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use tyndall_film::{ErrorSummary, Film, Guide, Patch, WorkUnit};
 
-use super::clock::Clock;
 use super::Run;
+use super::clock::Clock;
 use crate::checkpoint::Timer;
 use crate::progress::{Progress, Sink};
 use crate::{EngineError, Job, Position, Stage, schedule};
@@ -111,4 +111,3 @@ pub(super) fn report(
         projected_spp: projected,
     }
 }
-
