@@ -67,23 +67,20 @@ impl<L: Lanes> Slabs<L> {
 }
 
 /// Children yet to visit, nearest on top: entry distance in the high half (non-negative floats order like their bits).
-struct Stack {
-    entries: [MaybeUninit<u64>; STACK],
+///
+/// It borrows its room: a room within, beside the constant length, would be cleared for every ray.
+struct Stack<'a> {
+    entries: &'a mut MaybeUninit<[u64; STACK]>,
     len: usize,
 }
 
-impl Stack {
-    #[inline(always)]
-    fn new() -> Self {
-        Self { entries: [MaybeUninit::uninit(); STACK], len: 0 }
-    }
-
+impl Stack<'_> {
     #[inline(always)]
     fn push(&mut self, key: u64) {
         debug_assert!(self.len < STACK);
         // SAFETY: an inner node leaves at most WIDTH - 1 entries behind and the builder admits at most MAX_DEPTH
         // levels, so there are never more than STACK.
-        unsafe { self.entries.get_unchecked_mut(self.len) }.write(key);
+        unsafe { self.entries.as_mut_ptr().cast::<u64>().add(self.len).write(key) };
         self.len += 1;
     }
 
@@ -94,7 +91,7 @@ impl Stack {
         }
         self.len -= 1;
         // SAFETY: entries below the old length were written by `push`.
-        Some(unsafe { self.entries.get_unchecked(self.len).assume_init() })
+        Some(unsafe { self.entries.as_ptr().cast::<u64>().add(self.len).read() })
     }
 
     /// Sorts the entries from `low` on, farthest first.
@@ -102,7 +99,7 @@ impl Stack {
     fn sort_from(&mut self, low: usize) {
         // SAFETY: as for `pop`: everything below `len` has been written.
         let top: &mut [u64] = unsafe {
-            std::slice::from_raw_parts_mut(self.entries.as_mut_ptr().add(low).cast::<u64>(), self.len - low)
+            std::slice::from_raw_parts_mut(self.entries.as_mut_ptr().cast::<u64>().add(low), self.len - low)
         };
         for i in 1..top.len() {
             let key = top[i];
@@ -128,7 +125,8 @@ pub(crate) fn walk<L: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
     let (nodes, blocks): (&[Node], &[Block]) = (&bvh.nodes, &bvh.blocks);
     let slabs = Slabs::new(l, ray);
     let shear = Shear::new(l, ray);
-    let mut stack = Stack::new();
+    let mut room = MaybeUninit::uninit();
+    let mut stack = Stack { entries: &mut room, len: 0 };
     let mut t_max = l.splat8(query.t_max());
     let mut found = false;
     let mut current = Child(0);
@@ -177,7 +175,7 @@ fn descend<L: Lanes, const ANY: bool>(
     node: &Node,
     near: L::F8,
     mut mask: u32,
-    stack: &mut Stack,
+    stack: &mut Stack<'_>,
 ) -> Child {
     let mut next = || {
         let i = mask.trailing_zeros() as usize & (WIDTH - 1);
