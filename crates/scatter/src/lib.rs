@@ -13,4 +13,6 @@ pub use error::ScatterError;
 pub use phase::{Mixture, PhaseFunction, PhaseSample};
 
 #[cfg(test)]
+mod robust_tests;
+#[cfg(test)]
 mod sphere_tests;

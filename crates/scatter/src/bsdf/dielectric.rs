@@ -105,6 +105,9 @@ impl<const N: usize> Dielectric<N> {
     #[inline]
     fn sample_rough(&self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<BsdfSample<N>> {
         let m = self.distribution.sample_visible(wo, u);
+        if wo.dot(m) * wo.z <= 0.0 {
+            return None; // rounding at a grazing angle
+        }
         let (wi, etap, side) = if uc < fresnel_dielectric(wo.dot(m), self.eta.hero()) {
             (reflect(wo, m), 1.0, BsdfFlags::REFLECTION)
         } else {

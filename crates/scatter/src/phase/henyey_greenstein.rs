@@ -1,6 +1,6 @@
 //! Henyey & Greenstein 1941: `p = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos theta)^(3/2))` \[1/sr\], mean cosine `g(lambda)`.
 //!
-//! With `v = 1 - cos theta` the bracket is `(1 - g)^2 + 2 g v`; the textbook's inversion
+//! With `v = 1 - cos theta` the bracket is `(1 - g)^2 + 2 g v = (1 + g)^2 - 2 g (2 - v)`; the textbook's inversion
 //! `cos theta = (1 + g^2 - ((1 - g^2) / (1 - g + 2 g u))^2) / 2 g` factors into
 //! `v = 2 (1 - g)^2 (1 - u) (1 + g u) / (1 - g + 2 g u)^2`, which holds at `g = 0` and loses nothing near forward.
 
@@ -19,7 +19,10 @@ pub struct HenyeyGreenstein {
 /// `p` \[1/sr\] at `v = 1 - cos theta`.
 #[inline(always)]
 pub(super) fn p(g: f32, versine: f32) -> f32 {
-    let d = (1.0 - g) * (1.0 - g) + 2.0 * g * versine;
+    // measured from the peak, both terms are positive: nothing cancels
+    let from_peak = if g < 0.0 { 2.0 - versine } else { versine };
+    let width = 1.0 - g.abs();
+    let d = width * width + 2.0 * g.abs() * from_peak;
     0.25 * FRAC_1_PI * (1.0 - g * g) / (d * d.sqrt())
 }
 
@@ -30,7 +33,7 @@ pub(super) fn sample(g: f32, u: f32) -> Deflection {
     let (front, back) = ((1.0 - u) * (1.0 + g * u), u * (1.0 - g * (1.0 - u)));
     let r = (1.0 - g) / d;
     let sine = 2.0 * (1.0 + g) * r / d * (front * back).max(0.0).sqrt();
-    Deflection { versine: 2.0 * r * r * front, sine }
+    Deflection { versine: (2.0 * r * r * front).min(2.0), sine }
 }
 
 /// Refuses anything but -1 < g < 1.

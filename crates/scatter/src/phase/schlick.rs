@@ -33,7 +33,8 @@ impl Schlick {
     #[inline(always)]
     pub fn eval<const N: usize>(&self, versine: f32, lambda: &Wavelengths<N>) -> Spectrum<N> {
         self.k.sample(lambda).map(|k| {
-            let d = (1.0 - k) + k * versine;
+            let from_peak = if k < 0.0 { 2.0 - versine } else { versine };
+            let d = (1.0 - k.abs()) + k.abs() * from_peak;
             0.25 * FRAC_1_PI * (1.0 - k * k) / (d * d)
         })
     }
