@@ -58,7 +58,7 @@ impl Look {
     pub fn projected_spp(&self, target: &Target) -> Option<f64> {
         let mean = self.samples.iter().map(|&n| f64::from(n)).sum::<f64>() / self.samples.len() as f64;
         let ratio = self.deciding(target);
-        (ratio.is_finite() && mean > 0.0).then(|| mean * ratio * ratio)
+        (ratio.is_finite() && mean > 0.0).then_some(mean * ratio * ratio)
     }
 
     /// Counts of the first adaptive stage, from the pilot.

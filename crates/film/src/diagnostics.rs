@@ -65,7 +65,7 @@ impl Diagnostics {
         self.out_of_range += other.out_of_range;
         self.clamped += other.clamped;
         self.overflows += other.overflows;
-        self.removed += other.removed;
+        fixed::merge(&mut self.removed, other.removed);
         other.first.iter().for_each(|&b| self.remember(b));
     }
 

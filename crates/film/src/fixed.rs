@@ -1,28 +1,18 @@
-//! Exact sums: integers in fixed point, so that addition commutes and associates to the bit.
+//! Exact sums in storage: integers in fixed point, so that addition commutes and associates to the bit.
 //!
-//! A sample `v` (f32, |v| < 2^31) enters a sum of values as `v * 2^64` in an `i128`, and a sum of squares as
-//! `v^2 * 2^112` in an unsigned integer of 192 bits; what lies below the quantum is rounded to nearest, once per sample.
-//! With at most 2^32 samples a sum of values cannot overflow.
+//! A sample `v` (f32, |v| < 2^31) enters a sum of values as `v * 2^64` in the 16 bytes of an [`ExactSum`], and a sum of
+//! squares as `v^2 * 2^112` in an unsigned integer of 192 bits; what lies below the quantum is rounded to nearest, once per
+//! sample. With at most 2^32 samples a sum of values cannot overflow.
+
+use tyndall_base::exact::ExactSum;
 
 /// Samples of at least this magnitude are refused.
 pub(crate) const LIMIT: f32 = 2_147_483_648.0;
 
-const VALUE_BITS: i32 = 64;
 const SQUARE_BITS: i32 = 112;
 
 /// Sum of squares, least limb first.
 pub(crate) type Square = [u64; 3];
-
-/// Magnitude and exponent: `|v| = m * 2^e`.
-#[inline(always)]
-fn decompose(v: f32) -> (u64, i32) {
-    let bits = v.to_bits();
-    let biased = ((bits >> 23) & 0xff) as i32;
-    let fraction = u64::from(bits & 0x007f_ffff);
-    // subnormals have no hidden bit and the exponent of the least normal
-    let hidden = u64::from(biased != 0) << 23;
-    (fraction | hidden, biased.max(1) - 150)
-}
 
 /// `m / 2^shift` rounded to nearest, ties away from zero, for a mantissa below 2^62 and `shift > 0`.
 #[inline(always)]
@@ -30,20 +20,26 @@ fn shift_right(m: u64, shift: u32) -> u64 {
     if shift > 63 { 0 } else { ((m >> (shift - 1)) + 1) >> 1 }
 }
 
-/// `v * 2^64` for |v| < 2^31.
+/// Adds `v` to a stored sum.
 #[inline(always)]
-pub(crate) fn to_fixed(v: f32) -> i128 {
-    let (m, e) = decompose(v);
-    let shift = e + VALUE_BITS;
-    let magnitude =
-        if shift >= 0 { i128::from(m) << shift } else { i128::from(shift_right(m, shift.unsigned_abs())) };
-    if v.is_sign_negative() { -magnitude } else { magnitude }
+pub(crate) fn add(sum: &mut i128, v: f32) {
+    let mut exact = ExactSum::from_bits(*sum);
+    exact.add_f32(v);
+    *sum = exact.to_bits();
 }
 
-/// The value of a sum.
+/// Adds a stored sum to another.
+#[inline(always)]
+pub(crate) fn merge(sum: &mut i128, other: i128) {
+    let mut exact = ExactSum::from_bits(*sum);
+    exact.merge(ExactSum::from_bits(other));
+    *sum = exact.to_bits();
+}
+
+/// The value of a stored sum.
 #[inline]
 pub(crate) fn to_f64(sum: i128) -> f64 {
-    sum as f64 * exp2i(-VALUE_BITS)
+    ExactSum::from_bits(sum).to_f64()
 }
 
 /// Adds `square`, a number >= 0 below 2^63 (the square of a sample); true when the sum overflowed.
@@ -93,17 +89,6 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn values_of_24_bits_above_the_quantum_are_exact() {
-        for v in [1.0, -1.0, 0.1, -0.3, 1e9, -2e9, 1e-10, 3.5e-12, 0.0, f32::EPSILON] {
-            assert_eq!(to_f64(to_fixed(v)), f64::from(v), "{v}");
-        }
-        assert_eq!(to_fixed(1e-30), 0);
-        assert_eq!(to_fixed(f32::from_bits(1)), 0);
-        assert_eq!(to_fixed(exp2i(-65) as f32), 1); // tie: away from zero
-        assert_eq!(to_fixed(exp2i(-66) as f32), 0);
-    }
-
-    #[test]
     fn squares_are_exact() {
         for v in [1.0f32, -1.0, 0.1, -0.3, 1e9, -2e9, 1e-6, 0.0, 0.5, 0.49999997] {
             let mut s = [0; 3];
@@ -128,7 +113,7 @@ mod tests {
             let sum = |order: &[usize]| {
                 let mut s = (0i128, [0u64; 3]);
                 for &i in order {
-                    s.0 += to_fixed(v[i]);
+                    add(&mut s.0, v[i]);
                     add_square(&mut s.1, f64::from(v[i]) * f64::from(v[i]));
                 }
                 s

@@ -167,7 +167,8 @@ impl Patch {
         let values: Vec<f32> = values.iter().map(|v| v * scale).collect();
         let kept = luminance(&self.spec.luminance, &values);
         self.diagnostics.clamped += 1;
-        self.diagnostics.removed += fixed::to_fixed(luma as f32) - fixed::to_fixed(kept as f32);
+        fixed::add(&mut self.diagnostics.removed, luma as f32);
+        fixed::add(&mut self.diagnostics.removed, -kept as f32);
         self.accumulate(x, y, sample, weight, &values, kept);
     }
 
@@ -193,7 +194,7 @@ fn add_all(sums: &mut [i128], values: &[f32], sign: &impl Fn(f32) -> f32) {
     for (sum, &v) in sums.iter_mut().zip(values) {
         // most bands of a sample are zero
         if v != 0.0 {
-            *sum += fixed::to_fixed(sign(v));
+            fixed::add(sum, sign(v));
         }
     }
 }

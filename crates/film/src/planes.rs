@@ -60,16 +60,17 @@ impl Planes {
         overflows
     }
 
+    /// Counts of samples cannot wrap; those of a forged file may, and must not bring the program down.
     fn merge_row(&mut self, other: &Self, to: usize, from: usize, width: usize) -> u64 {
         let l = self.layout;
         let mut overflows = 0;
-        rows(&mut self.sums, &other.sums, to, from, width, l.sums, |a, b| *a += b);
+        rows(&mut self.sums, &other.sums, to, from, width, l.sums, fixed::merge);
         rows(&mut self.squares, &other.squares, to, from, width, l.squares, |a, b| {
             overflows += u64::from(fixed::add_limbs(a, b));
         });
-        rows(&mut self.cross, &other.cross, to, from, width, l.cross, |a, b| *a += b);
-        rows(&mut self.counts, &other.counts, to, from, width, l.slots, |a, b| *a += b);
-        rows(&mut self.weights, &other.weights, to, from, width, l.weights, |a, b| *a += b);
+        rows(&mut self.cross, &other.cross, to, from, width, l.cross, fixed::merge);
+        rows(&mut self.counts, &other.counts, to, from, width, l.slots, |a, b| *a = a.wrapping_add(b));
+        rows(&mut self.weights, &other.weights, to, from, width, l.weights, |a, b| *a = a.wrapping_add(b));
         rows(&mut self.largest, &other.largest, to, from, width, 1, |a, b| *a = (*a).max(b));
         overflows
     }

