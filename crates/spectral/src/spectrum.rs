@@ -21,8 +21,13 @@ impl<const N: usize> Spectrum<N> {
 
     /// Lane `k` is `f(k)`.
     #[inline(always)]
-    pub fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
-        Self(std::array::from_fn(f))
+    pub fn from_fn(mut f: impl FnMut(usize) -> f32) -> Self {
+        // a plain loop: `std::array::from_fn` is not inlined into functions compiled for other instruction sets
+        let mut v = [0.0; N];
+        for k in 0..N {
+            v[k] = f(k);
+        }
+        Self(v)
     }
 
     /// Lane-wise `f`.

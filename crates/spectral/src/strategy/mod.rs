@@ -47,7 +47,10 @@ impl WavelengthSampler {
                 w
             }
             Self::Fixed(set) => {
-                let lambda = std::array::from_fn(|k| set.pick(rotate::<N>(u, k)));
+                let mut lambda = [0.0; N];
+                for k in 0..N {
+                    lambda[k] = set.pick(rotate::<N>(u, k));
+                }
                 Wavelengths::continuum(lambda, [set.pdf(); N])
             }
         }

@@ -31,6 +31,8 @@ pub struct PathSampler {
     key: u32,
     /// Position within the replicate's net.
     index: u32,
+    /// The same, prepared for the net.
+    point: sobol::SobolIndex,
     dimension: u32,
 }
 
@@ -42,7 +44,8 @@ impl PathSampler {
     pub fn new(kind: SamplerKind, seed: u64, px: u32, py: u32, sample: u32, replicates: u32) -> Self {
         let replicates = replicates.max(1);
         let key = hash::hash4(seed as u32, (seed >> 32) as u32 ^ (sample % replicates), px, py);
-        Self { kind, key, index: sample / replicates, dimension: 0 }
+        let index = sample / replicates;
+        Self { kind, key, index, point: sobol::SobolIndex::new(index), dimension: 0 }
     }
 
     /// Moves to `dimension`.
@@ -67,7 +70,7 @@ impl PathSampler {
     pub fn next_1d(&mut self) -> f32 {
         let seed = hash::hash2(self.key, self.dimension);
         let u = if self.stratified() {
-            sobol::sobol_1d(self.index, seed)
+            self.point.d1(seed)
         } else {
             hash::to_unit_f32(hash::hash2(seed, self.index))
         };
@@ -80,7 +83,7 @@ impl PathSampler {
     pub fn next_2d(&mut self) -> Vec2 {
         let seed = hash::hash2(self.key, self.dimension);
         let u = if self.stratified() {
-            sobol::sobol_2d(self.index, seed)
+            self.point.d2(seed)
         } else {
             let a = hash::hash2(seed, self.index);
             [hash::to_unit_f32(a), hash::to_unit_f32(hash::hash2(a, !self.index))]
