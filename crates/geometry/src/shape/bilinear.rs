@@ -17,6 +17,19 @@ pub struct BilinearMesh {
     p: Vec<Vec3>,
     n: Vec<Vec3>,
     uv: Vec<Vec2>,
+    /// What each patch is, judged once.
+    forms: Vec<Form>,
+}
+
+/// What a patch is to the precision of its corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// A ruled surface.
+    Curved,
+    /// A parallelogram.
+    Flat,
+    /// A parallelogram with right angles.
+    Rectangle,
 }
 
 impl BilinearMesh {
@@ -27,7 +40,9 @@ impl BilinearMesh {
     pub fn new(indices: Vec<[u32; 4]>, p: Vec<Vec3>) -> Result<Self, GeometryError> {
         check_coordinates(&p, "vertex")?;
         check_indices(indices.iter().flatten().copied(), 4, p.len(), "patch")?;
-        Ok(Self { indices, p, n: vec![], uv: vec![] })
+        let form = |i: &[u32; 4]| Patch::new(i.map(|i| p[i as usize]), Form::Curved).judge();
+        let forms = indices.iter().map(form).collect();
+        Ok(Self { indices, p, n: vec![], uv: vec![], forms })
     }
 
     /// With per-vertex shading normals (before any reversal); empty for none.
@@ -64,11 +79,13 @@ impl BilinearMesh {
     /// The corners p00, p10, p01, p11 of patch `prim`.
     #[inline]
     pub fn corners(&self, prim: u32) -> [Vec3; 4] {
-        self.indices[prim as usize].map(|i| self.p[i as usize])
+        let [a, b, c, d] = self.indices[prim as usize];
+        [self.p[a as usize], self.p[b as usize], self.p[c as usize], self.p[d as usize]]
     }
 
+    #[inline]
     pub(crate) fn patch(&self, prim: u32) -> Patch {
-        Patch::new(self.corners(prim))
+        Patch::new(self.corners(prim), self.forms[prim as usize])
     }
 
     /// The box around patch `prim`.
@@ -77,8 +94,7 @@ impl BilinearMesh {
     }
 
     pub(crate) fn local_surface(&self, prim: u32, o: DVec3, d: DVec3, group: &ShapeGroup) -> LocalSurface {
-        let patch = self.patch(prim);
-        let (u, v) = patch.parameters(o, d);
+        let (u, v) = self.patch(prim).parameters(o, d);
         self.local_at(prim, u, v, group)
     }
 
@@ -146,12 +162,15 @@ pub(crate) struct Patch {
     pub e: DVec3,
     pub f: DVec3,
     pub g: DVec3,
+    form: Form,
 }
 
 impl Patch {
-    pub fn new(corners: [Vec3; 4]) -> Self {
-        let [p00, p10, p01, p11] = corners.map(DVec3::from);
-        Self { p00, e: p10 - p00, f: p01 - p00, g: (p11 - p10) - (p01 - p00) }
+    #[inline]
+    fn new([p00, p10, p01, p11]: [Vec3; 4], form: Form) -> Self {
+        let (p00, p10): (DVec3, DVec3) = (p00.into(), p10.into());
+        let (p01, p11): (DVec3, DVec3) = (p01.into(), p11.into());
+        Self { p00, e: p10 - p00, f: p01 - p00, g: (p11 - p10) - (p01 - p00), form }
     }
 
     /// Greatest magnitude of a coordinate, for judging what is rounding.
@@ -160,18 +179,30 @@ impl Patch {
         a.x.max(a.y).max(a.z)
     }
 
-    /// A parallelogram as far as `f32` corners can tell.
-    pub fn is_flat(&self) -> bool {
+    /// A parallelogram as far as `f32` corners can tell, and a rectangle to the precision that sampling it needs.
+    fn judge(&self) -> Form {
         let g = self.g.abs();
         let rounding = self.coordinate_size() * (4.0 * f64::from(f32::EPSILON));
         let size = self.e.length().min(self.f.length());
         let twist = g.x.max(g.y).max(g.z);
-        twist <= rounding.min(1e-3 * size) && self.e.cross(self.f).length_squared() > 0.0
+        let flat = twist <= rounding.min(1e-3 * size) && self.e.cross(self.f).length_squared() > 0.0;
+        if !flat {
+            return Form::Curved;
+        }
+        let right = self.e.dot(self.f).abs() <= 1e-5 * self.e.length() * self.f.length();
+        if right { Form::Rectangle } else { Form::Flat }
     }
 
-    /// A rectangle to the precision that sampling it as one needs.
+    /// A parallelogram.
+    #[inline(always)]
+    pub fn is_flat(&self) -> bool {
+        self.form != Form::Curved
+    }
+
+    /// A rectangle.
+    #[inline(always)]
     pub fn is_rectangle(&self) -> bool {
-        self.is_flat() && self.e.dot(self.f).abs() <= 1e-5 * self.e.length() * self.f.length()
+        self.form == Form::Rectangle
     }
 
     pub fn dpdu(&self, v: f64) -> DVec3 {

@@ -95,7 +95,7 @@ impl Disk {
         let m = self.to_world.matrix();
         let noise = self.to_world.point_noise(q) * 16.0;
         let returns = self.to_world.inverse().point64(self.to_world.point64(q)).z == self.height;
-        let exact = |k: usize| returns && m[k][0] == 0.0 && m[k][1] == 0.0 && self.height * m[k][2] == 0.0;
+        let exact = |k: usize| returns && m[k][0] == 0.0 && m[k][1] == 0.0;
         let pick = |k: usize, n: f64| if exact(k) { 0.0 } else { n };
         dvec3(pick(0, noise.x), pick(1, noise.y), pick(2, noise.z))
     }

@@ -79,7 +79,8 @@ impl TriangleMesh {
     /// The corners of triangle `prim`.
     #[inline]
     pub fn corners(&self, prim: u32) -> [Vec3; 3] {
-        self.indices[prim as usize].map(|i| self.p[i as usize])
+        let [a, b, c] = self.indices[prim as usize];
+        [self.p[a as usize], self.p[b as usize], self.p[c as usize]]
     }
 
     /// The box around triangle `prim`.
