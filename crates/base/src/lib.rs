@@ -17,3 +17,13 @@ pub mod vec;
 pub mod warp;
 
 pub use vec::{Vec2, Vec3};
+
+/// `a.map(f)` as a plain loop: the standard one is not inlined into functions compiled for other instruction sets.
+#[inline(always)]
+pub fn each<const N: usize, A: Copy, B: Copy + Default>(a: [A; N], mut f: impl FnMut(A) -> B) -> [B; N] {
+    let mut out = [B::default(); N];
+    for k in 0..N {
+        out[k] = f(a[k]);
+    }
+    out
+}

@@ -31,6 +31,8 @@ pub struct Settings {
     pub survival: bool,
     /// Distances drawn towards a light.
     pub equiangular: Equiangular,
+    /// Segments of a path that [`Equiangular::Auto`] considers, counted by the scatterings before them.
+    pub equiangular_depth: u32,
     /// Limit equiangular distances to the lit part of a spotlight's cone.
     pub cone_clipping: bool,
     /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
@@ -49,9 +51,10 @@ impl Default for Settings {
             exact_transmittance: true,
             survival: true,
             equiangular: Equiangular::Auto,
+            equiangular_depth: u32::MAX,
             cone_clipping: true,
             roulette_depth: 1,
-            roulette_threshold: 1.0,
+            roulette_threshold: 0.5,
         }
     }
 }

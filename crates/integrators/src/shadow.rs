@@ -31,34 +31,29 @@ pub enum End {
 pub fn shadow<const N: usize>(
     scene: &Scene,
     settings: &Settings,
-    mut o: Vec3,
+    o: Vec3,
     mut medium: MediumId,
     end: End,
     w: &Wavelengths<N>,
     sampler: &mut PathSampler,
 ) -> Option<Shadow<N>> {
     let mut s = Shadow { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE };
+    // one query decides whether anything blocks the whole way; boundaries are looked for after that
+    let Some(mut ray) = towards(o, &end) else { return Some(s) };
+    if scene.blocked(&ray) {
+        return None;
+    }
     loop {
-        let Some(ray) = towards(o, &end) else { return Some(s) };
-        let hit = scene.intersect(&ray);
+        let hit = scene.next_boundary(&ray);
         let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
-        // a blocked ray needs no transmittance
-        let isect = match &hit {
-            Some(h) => {
-                let isect = scene.interaction(&ray, h);
-                if !isect.binding.material.is_interface() {
-                    return None;
-                }
-                Some(isect)
-            }
-            None => None,
-        };
         if let Some(inside) = Inside::of(scene, medium, w) {
             attenuate(&mut s, &inside, t, settings, sampler)?;
         }
-        let Some(isect) = isect else { return Some(s) };
+        let Some(hit) = hit else { return Some(s) };
+        let isect = scene.interaction(&ray, &hit);
         medium = isect.medium_towards(ray.d, medium);
-        o = isect.surface.origin(ray.d);
+        let Some(rest) = towards(isect.surface.origin(ray.d), &end) else { return Some(s) };
+        ray = rest;
     }
 }
 

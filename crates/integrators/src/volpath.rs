@@ -9,7 +9,7 @@ use crate::{
     equiangular::{self, Segment},
     medium::Inside,
     observer::{Event, PathObserver, Vertex},
-    settings::Settings,
+    settings::{Equiangular, Settings},
     weight::{PathWeight, divide},
 };
 use tyndall_base::{Vec3, warp};
@@ -123,6 +123,9 @@ impl<'s, const N: usize> Walk<'s, N> {
         seen: &mut impl PathObserver<N>,
     ) -> Option<Segment> {
         if self.depth >= self.settings.max_depth {
+            return None;
+        }
+        if self.settings.equiangular == Equiangular::Auto && self.depth > self.settings.equiangular_depth {
             return None;
         }
         let segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;

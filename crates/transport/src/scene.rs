@@ -11,6 +11,11 @@ use tyndall_base::Vec3;
 use tyndall_geometry::{Accel, Hit, Ray, SurfacePoint};
 use tyndall_spectral::Emission;
 
+/// Mask of shapes that stop light or bend it.
+pub const OPAQUE: u8 = 1;
+/// Mask of boundaries that light passes unbent.
+pub const BOUNDARY: u8 = 2;
+
 /// What a shape group carries besides its geometry.
 #[derive(Clone, Debug)]
 pub struct ShapeBinding {
@@ -49,6 +54,8 @@ pub struct Scene {
     pub camera: Camera,
     /// The medium that the camera is in.
     pub camera_medium: MediumId,
+    /// Some shape is a boundary without material.
+    pub has_boundaries: bool,
 }
 
 /// A surface point as a path meets it.
@@ -83,6 +90,7 @@ impl Scene {
             lights: LightSet::default(),
             camera,
             camera_medium: MediumId::VACUUM,
+            has_boundaries: false,
         }
     }
 
@@ -90,7 +98,7 @@ impl Scene {
     pub fn emitters(&self) -> Vec<(f32, &Emission)> {
         let (_, radius) = self.accel.bounds().bounding_sphere();
         let radius = if radius.is_finite() && radius > 0.0 { radius } else { 1.0 };
-        let lights = self.lights.iter().map(|l| (l.extent(&self.accel, radius) as f32, l.spectrum()));
+        let lights = self.lights.iter().map(|l| (l.extent(radius) as f32, l.spectrum()));
         // a medium that fills the scene: 4 pi times its volume, per metre of absorption
         let volume = 4.0 / 3.0 * std::f32::consts::PI * radius * radius * radius;
         let media = self.media.iter().filter_map(|m| m.emission());
@@ -101,6 +109,18 @@ impl Scene {
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         self.accel.intersect(ray)
+    }
+
+    /// Whether a surface with a material lies on `ray`.
+    #[inline(always)]
+    pub fn blocked(&self, ray: &Ray) -> bool {
+        self.accel.occluded_masked(ray, OPAQUE)
+    }
+
+    /// The nearest boundary without material along `ray`.
+    #[inline(always)]
+    pub fn next_boundary(&self, ray: &Ray) -> Option<Hit> {
+        if self.has_boundaries { self.accel.intersect_masked(ray, BOUNDARY) } else { None }
     }
 
     /// What stands at `hit`.

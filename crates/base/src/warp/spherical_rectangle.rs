@@ -1,5 +1,6 @@
 use super::vec64::{V, add_scaled, cross, dot, from, length, to_vec3};
 use crate::math::f64::{atan2, sin_cos};
+use crate::each;
 use crate::vec::Vec3;
 use std::f64::consts::TAU;
 
@@ -30,19 +31,19 @@ impl SphericalRectangle {
     /// None where the solid angle is below [`Self::SMALLEST`] (edge-on, degenerate or far away) or not finite.
     #[inline]
     pub fn new(corner: Vec3, side_x: Vec3, side_y: Vec3) -> Option<Self> {
-        let [d, ex, ey] = [corner, side_x, side_y].map(from);
+        let (d, ex, ey) = (from(corner), from(side_x), from(side_y));
         let (width, height) = (length(ex), length(ey));
-        let (ax, ay) = (ex.map(|v| v / width), ey.map(|v| v / height));
+        let (ax, ay) = (each(ex, |v| v / width), each(ey, |v| v / height));
         let normal = cross(ax, ay);
         let distance = dot(d, normal);
         // the plane lies on the negative side
-        let (az, z0) = if distance > 0.0 { (normal.map(|v| -v), -distance) } else { (normal, distance) };
+        let (az, z0) = if distance > 0.0 { (each(normal, |v| -v), -distance) } else { (normal, distance) };
         let (x0, y0) = (dot(d, ax), dot(d, ay));
         let (x, y) = ([x0, x0 + width], [y0, y0 + height]);
         let [right, left] = angles(x, y, z0);
         let k = TAU - left;
         let solid_angle = right - k;
-        let b = y.map(|y| -y / (y * y + z0 * z0).sqrt());
+        let b = each(y, |y| -y / (y * y + z0 * z0).sqrt());
         let b = [b[0], -b[1]];
         let rectangle = Self { axes: [ax, ay, az], x, y, z0, b, k, solid_angle };
         let usable = (Self::SMALLEST..100.0).contains(&solid_angle) && z0 < 0.0;
@@ -67,10 +68,10 @@ impl SphericalRectangle {
         let x = self.abscissa(f64::from(u[0]));
         let d2 = x * x + self.z0 * self.z0;
         // h = y / |point| is uniform between the two sides
-        let [h0, h1] = self.y.map(|y| y / (d2 + y * y).sqrt());
+        let [h0, h1] = each(self.y, |y| y / (d2 + y * y).sqrt());
         let h = h0 + f64::from(u[1]) * (h1 - h0);
         let y = (h * (d2 / (1.0 - h * h)).sqrt()).clamp(self.y[0], self.y[1]);
-        let p = add_scaled(self.axes[2].map(|v| v * self.z0), self.axes[0], x);
+        let p = add_scaled(each(self.axes[2], |v| v * self.z0), self.axes[0], x);
         to_vec3(add_scaled(p, self.axes[1], y))
     }
 
@@ -90,7 +91,7 @@ impl SphericalRectangle {
     pub fn invert(&self, p: Vec3) -> [f32; 2] {
         let p = from(p);
         // any point on the ray will do: bring it to the plane
-        let p = p.map(|v| v * self.z0 / dot(p, self.axes[2]));
+        let p = each(p, |v| v * self.z0 / dot(p, self.axes[2]));
         let x = dot(p, self.axes[0]).clamp(self.x[0], self.x[1]);
         let y = dot(p, self.axes[1]).clamp(self.y[0], self.y[1]);
         let [right, left] = angles([self.x[0], x], self.y, self.z0);

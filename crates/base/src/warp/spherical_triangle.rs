@@ -1,5 +1,6 @@
 use super::vec64::{V, add_scaled, cross, dot, from, length, normalize, one_minus_dot, sub, to_vec3};
 use crate::math::f64::{atan2, sin_cos};
+use crate::each;
 use crate::vec::Vec3;
 
 /// Uniform directions in the solid angle of a triangle (Arvo 1995).
@@ -27,8 +28,8 @@ impl SphericalTriangle {
     /// [`Self::SMALLEST`] (edge-on, degenerate or far away) or not finite.
     #[inline]
     pub fn new(vertices: [Vec3; 3]) -> Option<Self> {
-        let [p, q, r] = vertices.map(from);
-        let [a, b, c] = [p, q, r].map(normalize);
+        let (p, q, r) = (from(vertices[0]), from(vertices[1]), from(vertices[2]));
+        let (a, b, c) = (normalize(p), normalize(q), normalize(r));
         let solid_angle = solid_angle([a, b, c]);
         // the planes of the arcs A B and A C; their angle is alpha
         let (ab, ac) = (cross(p, sub(q, p)), cross(p, sub(r, p)));
@@ -61,7 +62,7 @@ impl SphericalTriangle {
         let toward = add_scaled(c, self.b, -dot(c, self.b));
         let norm = length(toward);
         let along = if norm > 0.0 { sin / norm } else { 0.0 };
-        to_vec3(add_scaled(self.b.map(|x| x * (1.0 - height)), toward, along))
+        to_vec3(add_scaled(each(self.b, |x| x * (1.0 - height)), toward, along))
     }
 
     /// The point C' on the arc A C with `solid angle(A, B, C') = area`.
@@ -79,7 +80,7 @@ impl SphericalTriangle {
         let cos_b = if denominator == 0.0 { 1.0 } else { ((v * t - u * s) * cos_alpha - v) / denominator };
         let cos_b = cos_b.clamp(-1.0, 1.0);
         let sin_b = ((1.0 - cos_b) * (1.0 + cos_b)).sqrt();
-        add_scaled(self.a.map(|x| x * cos_b), self.toward_c, sin_b)
+        add_scaled(each(self.a, |x| x * cos_b), self.toward_c, sin_b)
     }
 
     /// The numbers that [`Self::sample`] maps to the unit direction `w`, which must lie in the triangle.
@@ -88,7 +89,7 @@ impl SphericalTriangle {
         let w = normalize(from(w));
         // C' is where the great circle through B and w meets the arc A C
         let c = cross(cross(self.b, w), cross(self.c, self.a));
-        let c = normalize(if dot(c, add_scaled(self.a, self.c, 1.0)) < 0.0 { c.map(|x| -x) } else { c });
+        let c = normalize(if dot(c, add_scaled(self.a, self.c, 1.0)) < 0.0 { each(c, |x| -x) } else { c });
         if !c[0].is_finite() {
             return [0.0; 2]; // w is B itself: any first number
         }

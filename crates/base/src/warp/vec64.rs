@@ -6,7 +6,7 @@ pub(super) type V = [f64; 3];
 
 #[inline(always)]
 pub(super) fn from(v: Vec3) -> V {
-    v.to_array().map(f64::from)
+    [f64::from(v.x), f64::from(v.y), f64::from(v.z)]
 }
 
 #[inline(always)]
@@ -35,6 +35,12 @@ pub(super) fn add_scaled(a: V, b: V, s: f64) -> V {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 
+/// `s a`.
+#[inline(always)]
+pub(super) fn scale(a: V, s: f64) -> V {
+    [a[0] * s, a[1] * s, a[2] * s]
+}
+
 #[inline(always)]
 pub(super) fn length(a: V) -> f64 {
     dot(a, a).sqrt()
@@ -42,8 +48,7 @@ pub(super) fn length(a: V) -> f64 {
 
 #[inline(always)]
 pub(super) fn normalize(a: V) -> V {
-    let s = 1.0 / length(a);
-    a.map(|x| x * s)
+    scale(a, 1.0 / length(a))
 }
 
 /// `1 - a . b` of unit vectors, without cancellation.

@@ -19,7 +19,7 @@ use tyndall_transport::{
     LightId, MediumId, Scene, ShapeBinding,
     light::{AreaLight, Light, LightSet},
     media::Medium,
-    scene::Boundary,
+    scene::{BOUNDARY, Boundary, OPAQUE},
 };
 
 /// Media by name.
@@ -95,7 +95,7 @@ impl<'a> Groups<'a> {
                 shape,
                 reverse_orientation: record.reverse_orientation,
                 transform_swaps_handedness: record.declared.ctm.start.swaps_handedness(),
-                mask: tyndall_geometry::MASK_ALL,
+                mask: if material.is_interface() { BOUNDARY } else { OPAQUE },
             };
             self.groups.push(group);
             self.bindings.push(ShapeBinding { material, boundary, first_light: None });
@@ -160,10 +160,11 @@ pub fn build(
         None => MediumId::VACUUM,
     };
     let (_, radius) = accel.bounds().bounding_sphere();
-    let lights = LightSet::new(lights, &accel, radius, &|e| visible_power(e, ctx.range));
+    let lights = LightSet::new(lights, radius, &|e| visible_power(e, ctx.range));
     let stats = accel.stats();
+    let has_boundaries = groups.bindings.iter().any(|b| b.material.is_interface());
     let scene =
-        Scene { accel, shapes: groups.bindings, materials: materials.table, media: media.table, lights, camera, camera_medium };
+        Scene { accel, has_boundaries, shapes: groups.bindings, materials: materials.table, media: media.table, lights, camera, camera_medium };
     Ok(LoadedScene {
         scene,
         film,
@@ -173,6 +174,7 @@ pub fn build(
         units,
         media: media.names,
         inventory,
+        sources: tyndall_pbrt::SourceMap::default(),
         diagnostics: Arc::default(),
         hash: String::new(),
         stats,
@@ -259,10 +261,14 @@ fn area_lights(
     }
     let shape = group as u32;
     let prims = accel.group(shape).shape.prim_count() as u32;
-    let total: f64 = (0..prims).map(|prim| f64::from(accel.group(shape).area(prim))).sum();
+    let areas: Vec<f32> = (0..prims).map(|prim| accel.group(shape).area(prim)).collect();
+    let total: f64 = areas.iter().map(|a| f64::from(*a)).sum();
     let (emission, two_sided) = light::area(ctx, area, &record.declared.color_space, total, units)?;
     let first = LightId(lights.len() as u32);
-    lights.extend((0..prims).map(|prim| Light::Area(AreaLight { shape, prim, emission: emission.clone(), two_sided })));
+    let light = |(prim, &area): (usize, &f32)| {
+        Light::Area(AreaLight { shape, prim: prim as u32, area, emission: emission.clone(), two_sided })
+    };
+    lights.extend(areas.iter().enumerate().map(light));
     Ok(Some(first))
 }
 

@@ -112,7 +112,8 @@ impl Camera {
         self
     }
 
-    fn projective(&self) -> &Projective {
+    /// What all projective cameras share.
+    pub fn projective(&self) -> &Projective {
         match self {
             Self::Perspective(c) => &c.projective,
             Self::Orthographic(c) => &c.projective,

@@ -24,6 +24,11 @@ impl Perspective {
         Ok(Self { projective: projective.validated()?, tan_half: math::f64::tan(half) as f32 })
     }
 
+    /// tan(fov / 2): half the shorter side of the default window, one metre before the camera \[m\].
+    pub fn tan_half(&self) -> f32 {
+        self.tan_half
+    }
+
     /// See [`super::Camera::sample_ray`].
     #[inline]
     pub fn sample_ray(&self, sample: &CameraSample) -> Ray {

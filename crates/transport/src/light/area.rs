@@ -14,6 +14,8 @@ pub struct AreaLight {
     pub shape: u32,
     /// The primitive in its group.
     pub prim: u32,
+    /// Its area \[m^2\].
+    pub area: f32,
     /// Radiance \[W m^-2 sr^-1 nm^-1\].
     pub emission: Emission,
     /// Emits on both sides.
@@ -72,11 +74,6 @@ impl AreaLight {
     pub fn target(&self, accel: &Accel, hit: &Hit, s: &SurfacePoint) -> Target {
         let pdf_area = accel.group(self.shape).pdf_area(hit, s);
         Target { p: s.p, rounding: s.rounding, n: s.ng, pdf_area }
-    }
-
-    /// Area \[m^2\].
-    pub fn area(&self, accel: &Accel) -> f32 {
-        accel.group(self.shape).area(self.prim)
     }
 
     /// 1 or 2.

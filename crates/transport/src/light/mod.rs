@@ -206,11 +206,11 @@ impl Light {
     }
 
     /// Emitted power over the light's emission spectrum: area times solid angle (times pi, the projected one).
-    pub fn extent(&self, accel: &Accel, scene_radius: f32) -> f64 {
+    pub fn extent(&self, scene_radius: f32) -> f64 {
         const PI: f64 = std::f64::consts::PI;
         let disk = PI * f64::from(scene_radius) * f64::from(scene_radius);
         match self {
-            Self::Area(l) => PI * f64::from(l.area(accel)) * l.sides(),
+            Self::Area(l) => PI * f64::from(l.area) * l.sides(),
             Self::Point(_) => 4.0 * PI,
             Self::Spot(l) => l.solid_angle(),
             Self::Distant(_) => disk,

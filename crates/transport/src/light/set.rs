@@ -3,7 +3,6 @@
 use super::Light;
 use crate::ids::LightId;
 use tyndall_base::distribution::Alias;
-use tyndall_geometry::Accel;
 use tyndall_spectral::Emission;
 
 /// Share of the choice that ignores power, so that a light whose power the weights misjudge is still found.
@@ -60,11 +59,10 @@ impl LightSet {
     /// `weigh` integrates an emission spectrum over wavelength.
     pub fn new(
         lights: Vec<Light>,
-        accel: &Accel,
         scene_radius: f32,
         weigh: &dyn Fn(&Emission) -> f64,
     ) -> Self {
-        let powers: Vec<f64> = lights.iter().map(|l| l.extent(accel, scene_radius) * weigh(l.spectrum())).collect();
+        let powers: Vec<f64> = lights.iter().map(|l| l.extent(scene_radius) * weigh(l.spectrum())).collect();
         let infinite = (0..lights.len())
             .filter(|&i| matches!(lights[i], Light::Infinite(_) | Light::Image(_)))
             .map(|i| LightId(i as u32))
