@@ -5,8 +5,9 @@ use std::process::ExitCode;
 use tyndall_cli::{args, commands, exit, log};
 
 fn main() -> ExitCode {
-    let Some(cli) = args::from_environment() else { return ExitCode::SUCCESS };
+    exit::keep_panics();
+    let Some(request) = args::from_environment() else { return ExitCode::SUCCESS };
     let console = log::Console::stderr();
-    log::start(&cli.log, &console);
-    exit::report(commands::run(cli.command, &console))
+    log::start(&request.log, &console);
+    exit::report(exit::guarded(|| commands::run(request.command, &request.log, &console)))
 }

@@ -34,6 +34,14 @@ impl Stop {
 /// # Errors
 /// If a handler is installed already, or the system refuses one.
 pub fn watch() -> Result<Stop, ctrlc::Error> {
+    watch_and(|| {})
+}
+
+/// Watches as [`watch`] does, and calls `on_first` at the first signal, after the flag is set.
+///
+/// # Errors
+/// If a handler is installed already, or the system refuses one.
+pub fn watch_and(on_first: impl Fn() + Send + 'static) -> Result<Stop, ctrlc::Error> {
     let stop = Stop::new();
     let flag = stop.clone();
     // runs on a thread of its own, not inside the signal handler, so any call is allowed
@@ -41,6 +49,7 @@ pub fn watch() -> Result<Stop, ctrlc::Error> {
         if flag.again() {
             std::process::exit(130);
         }
+        on_first();
         tracing::warn!("stopping after the work in hand; interrupt again to end at once");
     })?;
     Ok(stop)

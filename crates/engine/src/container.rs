@@ -23,7 +23,8 @@ use tyndall_film::{Diagnostics, Film, FilmSpec, Guide};
 use crate::atomic::{self, Faults};
 use crate::{EngineError, Job, Position, Shard, State};
 
-const MAGIC: &[u8; 8] = b"TYNDFILM";
+/// The first bytes of every file.
+pub const MAGIC: [u8; 8] = *b"TYNDFILM";
 /// Version of the format; a reader refuses any other.
 pub const VERSION: u32 = 1;
 const CHECKSUM: u64 = 32;
@@ -96,7 +97,7 @@ pub fn write(
 
 fn write_content(out: &mut dyn Write, header: &Header, guide: &[u8], film: &Film) -> io::Result<()> {
     let json = serde_json::to_vec(header)?;
-    out.write_all(MAGIC)?;
+    out.write_all(&MAGIC)?;
     out.write_all(&VERSION.to_le_bytes())?;
     out.write_all(&(json.len() as u64).to_le_bytes())?;
     out.write_all(&json)?;
@@ -154,7 +155,7 @@ fn verify(file: &mut File, length: u64, path: &Path) -> Result<(), EngineError> 
     }
     let mut magic = [0; 8];
     file.read_exact(&mut magic).map_err(io)?;
-    if &magic != MAGIC {
+    if magic != MAGIC {
         return Err(EngineError::damaged(path, "not a film of this program"));
     }
     file.rewind().map_err(io)?;

@@ -9,6 +9,7 @@
 
 mod encoding;
 mod exr_attributes;
+mod exr_chunk;
 mod exr_read;
 mod exr_write;
 mod guard;
@@ -16,6 +17,7 @@ mod ldr;
 mod meta;
 mod pfm;
 mod pixels;
+mod png_text;
 mod png_write;
 mod read;
 mod spectral_layout;
@@ -27,6 +29,7 @@ pub use exr_write::{ExrCompression, ExrOptions, encode_exr, write_exr};
 pub use meta::MetaValue;
 pub use pfm::{decode_pfm, encode_pfm, read_pfm, write_pfm};
 pub use pixels::{Channel, Pixels, Window};
+pub use png_text::read_png_texts;
 pub use png_write::{BitDepth, PngOptions, PngReport, encode_png, write_png};
 pub use read::{read_encoded, read_image};
 pub use spectral_layout::{SpectralLayout, SpectralUnit, band_edges_nm};

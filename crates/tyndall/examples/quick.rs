@@ -13,7 +13,7 @@ fn main() {
         match k { "eq" => p.pass.settings.equiangular = match v { "off" => tyndall_integrators::Equiangular::Off, "always" => tyndall_integrators::Equiangular::Always, _ => tyndall_integrators::Equiangular::Auto },
           "nee" => p.pass.settings.light_sampling = v == "1", "exact" => p.pass.settings.exact_transmittance = v=="1", "surv" => p.pass.settings.survival = v=="1",
           "rrd" => p.pass.settings.roulette_depth = v.parse().unwrap(), "rrt" => p.pass.settings.roulette_threshold = v.parse().unwrap(),
-          "ind" => if v=="1" { p.pass.settings.sampler = tyndall_transport::sampler::SamplerKind::Independent },
+          "eqd" => p.pass.settings.equiangular_depth = v.parse().unwrap(), "ind" => if v=="1" { p.pass.settings.sampler = tyndall_transport::sampler::SamplerKind::Independent },
           "portable" => p.pass.portable = v=="1",
           _ => panic!() }
     }

@@ -2,7 +2,9 @@
 
 use crate::{
     Error, Options,
+    camera_matrices::CameraMatrices,
     options::{Spectral, WavelengthPdf},
+    provenance::{entry, join},
 };
 use std::{path::Path, sync::Arc};
 use tyndall_engine::Job;
@@ -76,6 +78,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
     if let Some(edges) = &options.band_edges {
         loaded.film.band_edges.clone_from(edges);
     }
+    check_bands(&loaded.film.band_edges, options.range)?;
     let channels = loaded.film.channels()?;
     let wavelengths = sampler(&loaded, options)?;
     let settings = {
@@ -93,7 +96,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
     let spp = options.spp.unwrap_or(loaded.sampler.spp);
     let mut job = Job::new(spec, spp);
     job.scene_hash.clone_from(&loaded.hash);
-    job.settings = identity(&loaded, options, &settings);
+    job.settings = identity(&loaded, options, &settings, lanes);
     (job.target, job.time, job.shard) = (options.target.clone(), options.time, options.shard);
     job.guide = options.guide.clone();
     job.validate()?;
@@ -137,6 +140,18 @@ fn reframe(loaded: &mut LoadedScene, options: &Options) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// Bands beyond the range of the job would be dark in silence.
+fn check_bands(edges: &[f32], range: LambdaRange) -> Result<(), Error> {
+    let (Some(&first), Some(&last)) = (edges.first(), edges.last()) else { return Ok(()) };
+    if range.contains(first) && range.contains(last) {
+        return Ok(());
+    }
+    Err(Error::options(
+        format!("spectral bands: expected edges within {range}, got {first} to {last} nm"),
+        Some(format!("--range {}:{} covers them", first.min(range.min), last.max(range.max))),
+    ))
 }
 
 /// Analog paths meet lights by chance only.
@@ -235,20 +250,36 @@ fn film_spec(
     spec
 }
 
-/// Whatever the samples depend on beyond the film: jobs that differ here do not mix.
+/// Whatever the samples depend on beyond the film: jobs that differ here do not mix. With it a film on disk becomes an
+/// image without its scene, see [`crate::Provenance`].
 fn identity(
     loaded: &LoadedScene,
     options: &Options,
     settings: &tyndall_integrators::Settings,
+    lanes: Lanes,
 ) -> Vec<(String, String)> {
     let pair = |k: &str, v: String| (k.to_owned(), v);
+    let wavelengths = match options.spectral {
+        Spectral::Opow { set: None } => "continuum".into(),
+        Spectral::Opow { set: Some((count, _)) } => count.to_string(),
+        Spectral::Hero { .. } => lanes.count().to_string(),
+    };
+    let rule = match options.spectral {
+        Spectral::Opow { set: Some((_, rule)) } => format!("{rule:?}"),
+        _ => format!("{:?}", options.wavelength_pdf),
+    };
     vec![
-        pair("integrator", loaded.integrator.name.clone()),
-        pair("settings", format!("{settings:?}")),
-        pair("spectral", format!("{:?}", options.spectral)),
-        pair("wavelength-pdf", format!("{:?}", options.wavelength_pdf)),
-        pair("range", format!("{}", options.range)),
-        pair("filter", format!("{:?}", loaded.filter)),
-        pair("set", options.set.join(" ")),
+        pair(entry::INTEGRATOR, loaded.integrator.name.clone()),
+        pair("integrator settings", format!("{settings:?}")),
+        pair(entry::SPECTRAL, options.spectral.name().into()),
+        pair(entry::WAVELENGTHS, wavelengths),
+        pair("wavelength density", rule),
+        pair(entry::RANGE, join(&[options.range.min, options.range.max])),
+        pair("pixel filter", format!("{:?}", loaded.filter)),
+        pair("overrides", options.set.join(" ")),
+        pair(entry::SPACE, loaded.film.space.name().into()),
+        pair(entry::UNITS, crate::units::of(&loaded.units).into()),
+        pair(entry::BANDS, join(&loaded.film.band_edges)),
+        pair(entry::CAMERA, join(&CameraMatrices::of(&loaded.scene.camera).numbers())),
     ]
 }

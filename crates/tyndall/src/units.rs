@@ -6,6 +6,8 @@ use tyndall_io::Units;
 pub const NORMALISED: &str = "pbrt-normalised";
 /// The unit of spectral radiance.
 pub const ABSOLUTE: &str = "W m^-2 sr^-1 nm^-1";
+/// The unit of R, G and B: spectral radiance integrated with response curves over nm.
+pub const INTEGRATED: &str = "W m^-2 sr^-1";
 
 /// The unit of a scene's results.
 pub fn of(units: &Units) -> &'static str {

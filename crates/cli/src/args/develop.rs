@@ -24,7 +24,7 @@ pub struct DevelopArgs {
     /// The film or EXR
     #[arg(value_name = "FILM|EXR")]
     pub input: PathBuf,
-    /// Where the result goes; may be repeated (.png, .exr, .csv, .nc)
+    /// Where the result goes; may be repeated (.png, .exr, .csv)
     #[arg(long, short, value_name = "FILE", required = true, value_parser = ImageFile::parse)]
     pub output: Vec<ImageFile>,
     /// Replace existing files
@@ -42,9 +42,10 @@ pub struct DevelopArgs {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Picture")]
 pub struct LookArgs {
-    /// Exposure in stops: +1 doubles the brightness
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
-    pub exposure: f64,
+    /// Exposure in stops: +1 doubles the brightness [default: 0; for images in W m^-2 sr^-1 and for single bands the one
+    /// that takes the 99th percentile of luminance to white]
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = finite)]
+    pub exposure: Option<f64>,
     /// What shall look white: A, D50, D55, D60, D65, D75, E, a temperature as 3200K, or x,y [default: no change]
     #[arg(long, value_name = "WHITE", value_parser = WhitePoint::parse)]
     pub white: Option<WhitePoint>,
@@ -97,7 +98,7 @@ mod tests {
     fn looks() {
         let line = "tyndall develop a.exr -o a.png --exposure -1.5 --white 3200K --color-space rec2020";
         let Ok(Command::Develop(develop)) = parse(line) else { panic!("valid") };
-        assert_eq!(develop.look.exposure, -1.5);
+        assert_eq!(develop.look.exposure, Some(-1.5));
         assert_eq!(develop.look.white, Some(WhitePoint::Temperature(3200.0)));
         assert_eq!(develop.look.colour_space, DevelopSpace::Rec2020);
     }

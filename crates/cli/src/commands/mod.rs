@@ -1,10 +1,15 @@
 //! What each subcommand does.
 
 mod completions;
+mod develop;
+mod diff;
+mod info;
+mod merge;
+mod print;
+mod render;
+mod scene;
 
-use miette::miette;
-
-use crate::args::Command;
+use crate::args::{Command, LogArgs};
 use crate::exit::Failure;
 use crate::log::Console;
 
@@ -12,20 +17,13 @@ use crate::log::Console;
 ///
 /// # Errors
 /// Whatever keeps the command from its end, with the exit code that belongs to it.
-pub fn run(command: Command, _console: &Console) -> Result<(), Failure> {
+pub fn run(command: Command, log: &LogArgs, console: &Console) -> Result<(), Failure> {
     match command {
+        Command::Render(args) => render::run(&args, log, console),
         Command::Completions(args) => completions::run(&args),
-        other => Err(Failure::Other(miette!("this build has no `{}` yet", name(&other)))),
-    }
-}
-
-const fn name(command: &Command) -> &'static str {
-    match command {
-        Command::Render(_) => "render",
-        Command::Merge(_) => "merge",
-        Command::Develop(_) => "develop",
-        Command::Diff(_) => "diff",
-        Command::Info(_) => "info",
-        Command::Completions(_) => "completions",
+        Command::Merge(args) => merge::run(&args),
+        Command::Develop(args) => develop::run(&args),
+        Command::Diff(args) => diff::run(&args),
+        Command::Info(args) => info::run(&args, log, console),
     }
 }

@@ -1,6 +1,6 @@
 //! PNG: sRGB with 8 or 16 bits from linear sRGB, exposure in stops; what could not be shown is counted.
 
-use super::{Encoding, Pixels};
+use super::{Encoding, MetaValue, Pixels, png_text::with_texts};
 use crate::{FileError, Result, atomic::write_atomic};
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::{
@@ -42,7 +42,7 @@ pub struct PngReport {
 }
 
 /// Writes the planes R, G, B (linear, with the primaries and white of sRGB) of an image as a PNG, whole or not
-/// at all; of a crop only the data window.
+/// at all; of a crop only the data window. Attributes that are texts go along.
 ///
 /// # Errors
 /// [`FileError::BadImage`] without R, G, B (or Y) or with a size that PNG cannot hold, [`FileError::Io`] when
@@ -126,11 +126,19 @@ fn encode(pixels: &Pixels, samples: &[u8], depth: BitDepth, mut out: impl Write)
         BitDepth::Eight => ExtendedColorType::Rgb8,
         BitDepth::Sixteen => ExtendedColorType::Rgb16,
     };
-    PngEncoder::new(&mut out)
+    let mut png = Vec::new();
+    PngEncoder::new(&mut png)
         .write_image(samples, pixels.width() as u32, pixels.height() as u32, colour)
         .map_err(|e| match e {
             image::ImageError::IoError(e) => e,
             other => io::Error::other(other.to_string()),
         })?;
+    let texts: Vec<(&str, &str)> =
+        pixels.meta.iter().filter_map(|(k, v)| Some((k.as_str(), text(v)?))).collect();
+    out.write_all(&with_texts(&png, &texts))?;
     out.flush()
+}
+
+fn text(value: &MetaValue) -> Option<&str> {
+    if let MetaValue::Text(text) = value { Some(text) } else { None }
 }

@@ -11,6 +11,7 @@ mod image;
 mod light;
 mod material;
 mod medium;
+mod overrides;
 mod phase;
 mod render;
 mod shape;
@@ -25,7 +26,7 @@ pub use render::{INTEGRATORS, IntegratorDescription, SamplerDescription, integra
 use std::{path::Path, sync::Arc, time::Instant};
 use tyndall_film::PixelFilter;
 use tyndall_geometry::{BuildStats, Dispatch};
-use tyndall_pbrt::{Diagnostics, Error, Inventory, Parser};
+use tyndall_pbrt::{Diagnostics, Error, Inventory, Parser, SourceMap};
 use tyndall_spectral::LambdaRange;
 use tyndall_transport::Scene;
 
@@ -69,6 +70,8 @@ pub struct LoadedScene {
     pub media: Vec<String>,
     /// Every parameter and what became of it.
     pub inventory: Inventory,
+    /// The files that its places refer to.
+    pub sources: SourceMap,
     /// Warnings and notes.
     pub diagnostics: Arc<Diagnostics>,
     /// blake3 over everything read, in order: scene text, meshes, images, spectra.
@@ -98,15 +101,19 @@ pub fn load_text(name: &str, text: &str, dir: &Path, options: &LoadOptions) -> R
 fn load(mut parser: Parser, options: &LoadOptions) -> Result<LoadedScene, Error> {
     let start = Instant::now();
     let diagnostics = parser.diagnostics().clone();
-    let collected = collect::collect(&mut parser, &diagnostics)?;
+    let mut collected = collect::collect(&mut parser, &diagnostics)?;
+    let mut inventory = parser.inventory().clone();
+    let overrides = overrides::apply(&mut collected, &mut inventory, &options.set)?;
     let ctx = context::Context {
         range: options.range,
         strict: options.strict,
         warnings: &diagnostics,
         resolver: parser.resolver(),
     };
-    let mut loaded = build::build(&ctx, &collected, options, parser.inventory().clone())?;
+    let mut loaded = build::build(&ctx, &collected, options, inventory)?;
+    overrides::check(&overrides)?;
     loaded.hash = hash(&parser);
+    loaded.sources = parser.sources().clone();
     loaded.diagnostics = diagnostics.clone();
     loaded.seconds[0] = start.elapsed().as_secs_f64() - loaded.seconds[1];
     Ok(loaded)

@@ -94,7 +94,8 @@ pub struct Inventory {
 }
 
 impl Inventory {
-    pub(crate) fn add(&mut self, info: Arc<ParamInfo>) {
+    /// Appends one, as from [`crate::ParamSet::replace`].
+    pub fn add(&mut self, info: Arc<ParamInfo>) {
         self.items.push(info);
     }
 

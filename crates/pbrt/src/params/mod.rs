@@ -5,6 +5,7 @@ mod info;
 mod kind;
 mod many;
 mod one;
+mod replace;
 mod spectrum;
 mod values;
 

@@ -79,7 +79,7 @@ impl Parser {
         Ok(Parser::new(sources, file, Resolver::new(dir)))
     }
 
-    fn new(sources: SourceMap, file: Arc<SourceFile>, resolver: Resolver) -> Parser {
+    pub(crate) fn new(sources: SourceMap, file: Arc<SourceFile>, resolver: Resolver) -> Parser {
         Parser {
             sources,
             resolver,

@@ -49,6 +49,25 @@ pub enum Integrator {
     Volpath,
     /// Absorption and scattering as events, no light sampling: slow, simple, an independent judge
     Analog,
+    /// pbrt's: as volpath, but media are left out
+    Path,
+    /// pbrt's: runs as path
+    Simplepath,
+    /// pbrt's: runs as volpath
+    Simplevolpath,
+}
+
+impl Integrator {
+    /// The name in scene files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Volpath => "volpath",
+            Self::Analog => "analog",
+            Self::Path => "path",
+            Self::Simplepath => "simplepath",
+            Self::Simplevolpath => "simplevolpath",
+        }
+    }
 }
 
 /// How wavelengths travel.

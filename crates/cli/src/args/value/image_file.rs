@@ -14,18 +14,15 @@ pub enum FileKind {
     Png,
     /// Table of pixels, units in its header.
     Csv,
-    /// NetCDF, the spectral cube.
-    NetCdf,
     /// The film itself, with everything needed to go on or to merge.
     Film,
 }
 
 /// Endings and what they mean.
-const ENDINGS: [(&str, FileKind); 5] = [
+const ENDINGS: [(&str, FileKind); 4] = [
     ("exr", FileKind::Exr),
     ("png", FileKind::Png),
     ("csv", FileKind::Csv),
-    ("nc", FileKind::NetCdf),
     ("film", FileKind::Film),
 ];
 

@@ -1,0 +1,197 @@
+//! `tyndall render`.
+
+mod options;
+mod replay;
+mod tev;
+mod watch;
+mod write;
+
+use std::path::{Path, PathBuf};
+
+use miette::miette;
+use tyndall::engine::{Cancel, Checkpoints, End, Outcome};
+use tyndall::image::error_path;
+use tyndall::{Plan, Provenance, RunOptions, existing, memory, plan};
+
+use super::scene;
+use crate::args::value::{FileKind, ImageFile};
+use crate::args::{CheckpointFile, LogArgs, Names, RenderArgs};
+use crate::exit::Failure;
+use crate::log::Console;
+use crate::signal;
+use watch::Watcher;
+use write::Writer;
+pub use write::{command_line, write_image};
+
+/// A film of more bytes is announced.
+const LARGE: u128 = 1 << 30;
+
+/// Renders, or follows one path.
+pub fn run(args: &RenderArgs, log: &LogArgs, console: &Console) -> Result<(), Failure> {
+    let options = options::options(args)?;
+    let plan = plan(scene::source(args.scene.as_deref()), &options)?;
+    scene::tell(&plan.loaded.diagnostics.to_vec(), args.reading.strict, log, console)?;
+    if let Some((pixel, sample)) = args.replay.path() {
+        return replay::run(&plan, pixel, sample, log);
+    }
+    let job = Job::new(args, plan)?;
+    job.announce();
+    if job.is_done_already() {
+        tracing::info!("the job is done: {}", job.names.images[0].display());
+        return Ok(());
+    }
+    job.refuse_to_replace()?;
+    job.probe_folders()?;
+    job.render(log, console)
+}
+
+/// A render about to run.
+struct Job<'a> {
+    args: &'a RenderArgs,
+    plan: Plan,
+    provenance: Provenance,
+    names: Names,
+    files: Vec<ImageFile>,
+}
+
+impl<'a> Job<'a> {
+    fn new(args: &'a RenderArgs, plan: Plan) -> Result<Self, Failure> {
+        memory::check(&plan.job.film)?;
+        let provenance = Provenance::of(&plan)?;
+        let names = args.names();
+        let named = |path: &PathBuf| ImageFile::parse(&path.to_string_lossy()).map_err(|e| Failure::input(e, None));
+        let files = names.images.iter().map(named).collect::<Result<_, _>>()?;
+        Ok(Self { args, plan, provenance, names, files })
+    }
+
+    fn announce(&self) {
+        let needed = memory::needed(&self.plan.job.film);
+        if needed >= LARGE {
+            tracing::info!("the film needs {:.1} GiB of memory", needed as f64 / (1u64 << 30) as f64);
+        }
+    }
+
+    /// Files that the run will write.
+    fn results(&self) -> Vec<PathBuf> {
+        let errors = self.files.iter().filter(|f| f.kind == FileKind::Exr).map(|f| error_path(&f.path));
+        let record = self.names.run_json.clone();
+        self.names.images.iter().cloned().chain(errors).chain([record]).collect()
+    }
+
+    fn checkpoint(&self) -> Option<&Path> {
+        match &self.args.run.checkpoint {
+            None => Some(&self.names.checkpoint),
+            Some(CheckpointFile::Off) => None,
+            Some(CheckpointFile::File(path)) => Some(path),
+        }
+    }
+
+    /// A job that was resumed to its end leaves no checkpoint but its results.
+    fn is_done_already(&self) -> bool {
+        let gone = self.checkpoint().is_none_or(|c| !c.exists() && !c.with_extension("ckpt.1").exists());
+        let mine = |p: &&Path| existing::belongs(p, &self.provenance);
+        self.args.run.resume && gone && self.names.images.iter().map(PathBuf::as_path).all(|p| mine(&p))
+    }
+
+    fn refuse_to_replace(&self) -> Result<(), Failure> {
+        if self.args.output.force {
+            return Ok(());
+        }
+        Ok(self.results().iter().try_for_each(|path| existing::check(path, &self.provenance))?)
+    }
+
+    /// Hours of work shall not end in a folder that cannot be written to.
+    fn probe_folders(&self) -> Result<(), Failure> {
+        self.results().iter().map(PathBuf::as_path).chain(self.checkpoint()).try_for_each(probe)
+    }
+
+    fn render(&self, log: &LogArgs, console: &Console) -> Result<(), Failure> {
+        let cancel = Cancel::default();
+        let on_signal = cancel.clone();
+        signal::watch_and(move || on_signal.cancel())
+            .map_err(|e| Failure::Other(miette!("cannot watch for signals: {e}")))?;
+        let run = RunOptions {
+            threads: self.args.run.threads.map(Into::into),
+            cancel,
+            checkpoints: self.checkpoint().map(|c| Checkpoints::new(c, self.args.run.checkpoint_every.0)),
+            resume: self.args.run.resume,
+        };
+        self.mention_checkpoint();
+        let writer = Writer::new(self, &run);
+        let mut watcher = Watcher::new(self, &writer, log, console);
+        let outcome = tyndall::render(&self.plan, &run, &mut watcher);
+        watcher.finish(outcome.as_ref().ok());
+        let outcome = outcome?;
+        self.conclude(&outcome, &writer)?;
+        match outcome.end {
+            End::Cancelled => Err(Failure::Interrupted),
+            End::Complete => {
+                run.checkpoints.iter().for_each(Checkpoints::remove);
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn mention_checkpoint(&self) {
+        if let Some(path) = self.checkpoint().filter(|p| p.exists() && !self.args.run.resume) {
+            tracing::info!("{}: a checkpoint is there; --resume would go on from it", path.display());
+        }
+    }
+
+    fn conclude(&self, outcome: &Outcome, writer: &Writer<'_>) -> Result<(), Failure> {
+        writer.write(outcome)?;
+        report_bad_samples(outcome);
+        match outcome.end {
+            End::Cancelled => match self.checkpoint() {
+                Some(path) => tracing::warn!("interrupted; --resume goes on from {}", path.display()),
+                None => tracing::warn!("interrupted, without a checkpoint"),
+            },
+            _ if outcome.met == Some(false) => {
+                tracing::warn!("the error asked for is not reached: raise --spp, which is the ceiling");
+            }
+            End::TimeUp if self.args.stop.until.is_some() => {
+                tracing::warn!("the time is up before the error asked for is reached");
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// Dropped and clamped samples are never passed over in silence.
+fn report_bad_samples(outcome: &Outcome) {
+    let d = outcome.state.film.diagnostics();
+    if d.non_finite + d.out_of_range > 0 {
+        let first = d.first_bad().first();
+        let replay = first.map_or_else(String::new, |b| {
+            format!("; replay one by --pixel {},{} --sample {} --seed {} --trace", b.x, b.y, b.sample, b.seed)
+        });
+        let (n, m) = (d.non_finite, d.out_of_range);
+        tracing::warn!("{n} samples that were not finite and {m} beyond all range were dropped{replay}");
+    }
+    if d.clamped > 0 {
+        tracing::warn!("the firefly clamp scaled {} samples down and removed a luminance of {:e}", d.clamped, d.clamp_removed());
+    }
+    if d.overflows > 0 {
+        tracing::warn!("{} sums of squares overflowed: errors of those pixels mean nothing", d.overflows);
+    }
+}
+
+/// Tries to write beside a result.
+fn probe(path: &Path) -> Result<(), Failure> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if path.exists() && !path.is_file() {
+        return Ok(());
+    }
+    match tempfile::Builder::new().prefix(".tyndall-probe").tempfile_in(folder) {
+        Ok(_) => Ok(()),
+        Err(e) => Err(Failure::of(tyndall::files::FileError::io(path, "write", without_path(e)).into())),
+    }
+}
+
+/// `tempfile` adds a random name to the system's reason.
+fn without_path(e: std::io::Error) -> std::io::Error {
+    let code = e.get_ref().and_then(|inner| inner.source()?.downcast_ref::<std::io::Error>()?.raw_os_error());
+    code.map_or(e, std::io::Error::from_raw_os_error)
+}

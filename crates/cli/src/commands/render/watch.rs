@@ -1,0 +1,93 @@
+//! What a render tells while it runs: progress, images so far, the display.
+
+use std::time::{Duration, Instant};
+
+use tyndall::engine::{Outcome, Progress as EngineProgress, Sink};
+use tyndall::film::Film;
+
+use super::tev::Display;
+use super::write::Writer;
+use super::Job;
+use crate::args::LogArgs;
+use crate::log::Console;
+use crate::progress::{Progress, Status};
+
+/// Watches a render.
+pub struct Watcher<'w> {
+    progress: Option<Progress>,
+    status: Status,
+    spp_end: Option<u32>,
+    display: Option<Display>,
+    every: Option<Duration>,
+    written: Instant,
+    writer: &'w Writer<'w>,
+}
+
+impl<'w> Watcher<'w> {
+    /// Shows the start.
+    pub fn new(job: &Job<'_>, writer: &'w Writer<'w>, log: &LogArgs, console: &Console) -> Self {
+        let address = job.args.output.display_server.as_ref();
+        // with a target the end is not known, with a shard it is that of its part
+        let spp_end = match (&job.plan.job.target, job.plan.job.samples()) {
+            (None, range) => Some(range.end - range.start),
+            (Some(_), _) => None,
+        };
+        Self {
+            progress: Some(Progress::start(console, log)),
+            status: Status::default(),
+            spp_end,
+            display: address.and_then(|a| Display::open(a, &job.names.images[0], &job.plan.job.film)),
+            every: job.args.output.write_every.map(|d| d.0),
+            written: Instant::now(),
+            writer,
+        }
+    }
+
+    /// Shows the end.
+    pub fn finish(&mut self, outcome: Option<&Outcome>) {
+        let Some(progress) = self.progress.take() else { return };
+        if let Some(outcome) = outcome {
+            let area = outcome.state.film.spec().bounds.area().max(1) as f64;
+            self.status.elapsed = Duration::from_millis(outcome.state.position.millis);
+            self.status.spp = outcome.state.film.samples() as f64 / area;
+            self.status.left = None;
+            if outcome.state.position.is_finished() {
+                self.status.done = 1.0;
+            }
+        }
+        progress.finish(&self.status);
+    }
+}
+
+impl Sink for Watcher<'_> {
+    fn progress(&mut self, p: &EngineProgress) {
+        self.status = Status {
+            done: p.fraction,
+            elapsed: p.elapsed,
+            left: p.remaining,
+            spp: p.spp,
+            spp_end: self.spp_end,
+            samples_per_second: p.samples_per_second,
+            median_rel_se: p.errors.as_ref().map(|e| e.median_rel_se_y).filter(|e| e.is_finite()),
+        };
+        if let Some(progress) = &mut self.progress {
+            progress.update(&self.status);
+        }
+    }
+
+    fn round(&mut self, film: &Film) {
+        if let Some(display) = &mut self.display {
+            display.show(film);
+        }
+        if self.every.is_some_and(|every| self.written.elapsed() >= every) {
+            if let Err(e) = self.writer.images(film) {
+                tracing::warn!("the image so far was not written: {}", e);
+            }
+            self.written = Instant::now();
+        }
+    }
+
+    fn warning(&mut self, text: &str) {
+        tracing::warn!("{text}");
+    }
+}

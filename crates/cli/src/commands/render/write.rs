@@ -1,0 +1,127 @@
+//! What a render writes.
+
+use std::path::Path;
+
+use tyndall::engine::{Outcome, shard};
+use tyndall::files::image::{ExrOptions, write_exr, write_png};
+use tyndall::film::Film;
+use tyndall::record::{Circumstances, Seconds};
+use tyndall::spectral::SpaceName;
+use tyndall::image::error_path;
+use tyndall::{Error, Image, Look, Record, RunOptions, picture, table};
+
+use super::Job;
+use crate::args::value::FileKind;
+use crate::exit::Failure;
+
+/// Writes the results of a job.
+pub struct Writer<'j> {
+    job: &'j Job<'j>,
+    threads: usize,
+}
+
+impl<'j> Writer<'j> {
+    /// For a job that runs this way.
+    pub fn new(job: &'j Job<'j>, run: &RunOptions) -> Self {
+        Self { job, threads: tyndall::engine::Backend::width(&run.backend()) }
+    }
+
+    /// Everything: images, errors, films, the record.
+    pub fn write(&self, outcome: &Outcome) -> Result<(), Failure> {
+        let film = &outcome.state.film;
+        if film.samples() == 0 {
+            tracing::warn!("no sample was taken: no image is written");
+            return Ok(());
+        }
+        self.images(film)?;
+        for file in self.job.files.iter().filter(|f| f.kind == FileKind::Film) {
+            if self.job.args.run.shard.is_some() && !outcome.state.position.is_finished() {
+                tracing::warn!("{}: not written, the shard is not finished", file.path.display());
+                continue;
+            }
+            shard::save(&file.path, &self.job.plan.job, &outcome.state).map_err(Error::from)?;
+        }
+        Ok(self.record(outcome).write(&self.job.names.run_json)?)
+    }
+
+    /// The images, with the errors beside an EXR.
+    pub fn images(&self, film: &Film) -> Result<(), Error> {
+        let image = Image::of_film(film, &self.job.provenance)?;
+        for file in &self.job.files {
+            write_image(&image, &file.path, file.kind)?;
+        }
+        Ok(())
+    }
+
+    fn record(&self, outcome: &Outcome) -> Record {
+        let job = self.job;
+        let [load, build] = job.plan.loaded.seconds;
+        let position = &outcome.state.position;
+        let circumstances = Circumstances {
+            command: command_line(),
+            scene: Some(scene_name(job.args.scene.as_deref())),
+            seconds: Seconds { load, build, render: position.millis as f64 * 1e-3 },
+            threads: self.threads,
+            samples: position.samples,
+        };
+        let film = &outcome.state.film;
+        Record::new(film, &film.summary(), &job.provenance, circumstances)
+    }
+}
+
+fn scene_name(scene: Option<&Path>) -> String {
+    let built_in = || format!("{} (built in)", tyndall::plan::BUILT_IN_NAME);
+    scene.map_or_else(built_in, |path| path.display().to_string())
+}
+
+/// One image file; a film is none.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_image(image: &Image, path: &Path, kind: FileKind) -> Result<(), Error> {
+    match kind {
+        FileKind::Exr => {
+            let options = ExrOptions { parallel: false, ..ExrOptions::default() };
+            write_exr(path, &image.values, &options)?;
+            if let Some(errors) = &image.errors {
+                write_exr(&error_path(path), errors, &options)?;
+            }
+        }
+        FileKind::Png => {
+            let picture = picture(image, &Look::default(), SpaceName::Srgb)?;
+            let report = write_png(path, &picture.pixels, &picture.png())?;
+            if picture.exposure != 0.0 {
+                tracing::debug!("{}: exposure {} stops", path.display(), picture.exposure);
+            }
+            if report.non_finite > 0 {
+                tracing::warn!("{}: {} pixels are not finite, shown in magenta", path.display(), report.non_finite);
+            }
+        }
+        FileKind::Csv => table::write(path, image, &[])?,
+        FileKind::Film => {}
+    }
+    Ok(())
+}
+
+/// The command as it was given, quoted for a shell.
+pub fn command_line() -> String {
+    std::env::args_os().map(|a| quoted(&a.to_string_lossy())).collect::<Vec<_>>().join(" ")
+}
+
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,%+@".contains(c);
+    if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn words_are_quoted_for_a_shell() {
+        assert_eq!(quoted("a/b.pbrt"), "a/b.pbrt");
+        assert_eq!(quoted("a b"), "'a b'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+        assert_eq!(quoted(""), "''");
+    }
+}

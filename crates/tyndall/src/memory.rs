@@ -1,0 +1,70 @@
+//! Memory that a film may take, asked of the system before it is taken.
+
+use crate::Error;
+use std::fs;
+use tyndall_film::FilmSpec;
+
+/// Taken for granted where the system does not tell: 64 GiB.
+const UNKNOWN: u64 = 64 << 30;
+
+/// Bytes that this process can still get: free memory of the machine, or what is left of its control group.
+pub fn available() -> u64 {
+    let group = [("memory.max", "memory.current"), ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")]
+        .iter()
+        .filter_map(|(limit, used)| Some(group_number(limit)?.saturating_sub(group_number(used)?)));
+    group.chain(machine()).min().unwrap_or(UNKNOWN)
+}
+
+fn group_number(name: &str) -> Option<u64> {
+    fs::read_to_string(format!("/sys/fs/cgroup/{name}")).ok()?.trim().parse().ok()
+}
+
+/// `MemAvailable` of Linux.
+fn machine() -> Option<u64> {
+    let text = fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|l| l.strip_prefix("MemAvailable:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kibibytes * 1024)
+}
+
+/// Bytes of a film's sums and of the planes it is developed to.
+pub fn needed(spec: &FilmSpec) -> u128 {
+    spec.bytes() + planes(spec)
+}
+
+/// Means and errors in f64, then in f32, then as channels of a file, with luminance, counts and flags.
+fn planes(spec: &FilmSpec) -> u128 {
+    let values = spec.channels() + spec.channels_with_errors();
+    u128::from(spec.bounds.area()) * (values as u128 * 16 + 64)
+}
+
+/// Refuses a film that the memory cannot hold; nothing is allocated.
+///
+/// # Errors
+/// With the bytes needed and available.
+pub fn check(spec: &FilmSpec) -> Result<(), Error> {
+    let planes = u64::try_from(planes(spec)).unwrap_or(u64::MAX);
+    Ok(spec.check_size(available().saturating_sub(planes))?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tyndall_film::ErrorMode;
+
+    #[test]
+    fn some_memory_is_left() {
+        let free = available();
+        assert!(free > 1 << 20 && free < 1 << 50, "{free}");
+    }
+
+    #[test]
+    fn absurd_films_are_refused_with_numbers() {
+        let small = FilmSpec::xyz([64, 64], ErrorMode::Conservative);
+        assert!(check(&small).is_ok());
+        let huge = FilmSpec::xyz([1 << 20, 1 << 20], ErrorMode::Conservative);
+        assert!(needed(&huge) > 1 << 46);
+        let text = check(&huge).expect_err("refused").to_string();
+        assert!(text.contains("1048576 x 1048576") && text.contains("hint"), "{text}");
+    }
+}
