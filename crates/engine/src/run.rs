@@ -5,6 +5,7 @@ mod delivery;
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::time::{Duration, Instant};
 
 use clock::Clock;
 use delivery::{Delivery, left_after, report, warn};
@@ -89,16 +90,32 @@ struct Driver<'r, 's> {
     clock: Clock,
     errors: Option<ErrorSummary>,
     projected: Option<f64>,
+    /// When the errors were last summarised, and what that took.
+    looked: (Instant, Duration),
 }
 
 impl<'r, 's> Driver<'r, 's> {
     fn new(run: Run<'r>, state: State, sink: &'s mut dyn Sink) -> Self {
         let clock = Clock::start(&state.position);
         let schedule = Schedule::new(&run.job.film);
-        Self { run, sink, schedule, state, timer: Timer::start(), clock, errors: None, projected: None }
+        Self {
+            run,
+            sink,
+            schedule,
+            state,
+            timer: Timer::start(),
+            clock,
+            errors: None,
+            projected: None,
+            looked: (Instant::now(), Duration::ZERO),
+        }
     }
 
     fn drive(mut self) -> Result<Outcome, EngineError> {
+        // a finished job is not written again
+        if self.state.position.is_finished() {
+            return Ok(self.outcome(End::Complete));
+        }
         let end = loop {
             if self.state.position.is_finished() {
                 break End::Complete;
@@ -194,15 +211,27 @@ impl<'r, 's> Driver<'r, 's> {
         self.state.position.round += 1;
         self.state.position.done.clear();
         self.clock.end_round(&self.state.position);
-        self.errors = Some(self.state.film.summary());
-        if let Some(target) = &self.run.job.target {
-            self.projected = Look::new(&self.state.film, target).projected_spp(target);
-        }
+        self.look();
         self.sink.round(&self.state.film);
         let left = left_after(self.run.job, &self.state.position, samples, &self.state.guide);
         let progress =
             report(&self.run, &self.state.position, &self.clock, left, &self.errors, self.projected);
         self.sink.progress(&progress);
+    }
+
+    /// Summarises the errors for the progress line: at the end of a stage, and else for no more than a twentieth of the
+    /// time.
+    fn look(&mut self) {
+        let (last, cost) = self.looked;
+        if last.elapsed() < cost * 20 && self.round_samples().is_some() {
+            return;
+        }
+        let start = Instant::now();
+        self.errors = Some(self.state.film.summary());
+        if let Some(target) = &self.run.job.target {
+            self.projected = Look::new(&self.state.film, target).projected_spp(target);
+        }
+        self.looked = (Instant::now(), start.elapsed());
     }
 
     /// Fixes the counts of the next stage, or ends the job.

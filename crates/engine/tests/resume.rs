@@ -187,6 +187,21 @@ fn a_damaged_checkpoint_falls_back_to_its_predecessor_and_says_so() {
     }
 }
 
+/// Resuming a finished job renders nothing and writes nothing.
+#[test]
+fn a_finished_job_is_left_alone() {
+    let pass = Hashed::new(3, Shape::Smooth);
+    let job = Job::new(spec(16, 16, ErrorMode::Conservative), 8);
+    let folder = tempfile::tempdir().unwrap();
+    let checkpoints = Checkpoints::new(folder.path().join("a.ckpt"), Duration::from_secs(60));
+    go(&job, &pass, State::start(&job).unwrap(), &checkpoints, &Cancel::default(), &mut Silent);
+    let calls = pass.calls.load(Ordering::Relaxed);
+    let state = checkpoints.load(&job).unwrap().state;
+    fs::remove_file(checkpoints.path()).unwrap();
+    assert_eq!(go(&job, &pass, state, &checkpoints, &Cancel::default(), &mut Silent), End::Complete);
+    assert!(pass.calls.load(Ordering::Relaxed) == calls && !checkpoints.path().exists());
+}
+
 #[test]
 fn a_checkpoint_of_another_job_is_refused_with_what_differs() {
     let pass = Hashed::new(3, Shape::Smooth);

@@ -73,7 +73,7 @@ impl Developed {
 impl Film {
     /// Means and standard errors of every channel.
     pub fn develop(&self) -> Developed {
-        let wide = Wide::new(self);
+        let wide = Wide::new(self, true);
         let spec = self.spec();
         let narrow = |v: &[f64]| v.iter().map(|&x| x as f32).collect::<Vec<f32>>();
         let root = |v: &[f64]| v.iter().map(|&x| x.sqrt() as f32).collect::<Vec<f32>>();
@@ -103,7 +103,7 @@ impl Film {
 
     /// Summary of the errors of Y: what the progress line shows.
     pub fn summary(&self) -> ErrorSummary {
-        Wide::new(self).summary(self.spec().mode)
+        Wide::new(self, false).summary(self.spec().mode)
     }
 }
 
@@ -119,26 +119,28 @@ pub(crate) struct Wide {
 }
 
 impl Wide {
-    pub fn new(film: &Film) -> Self {
+    /// All channels, or luminance alone.
+    pub fn new(film: &Film, channels: bool) -> Self {
         let spec = film.spec();
         let pixels = spec.bounds.area() as usize;
         let l = film.planes.layout;
+        let planes = |n: usize| vec![vec![0.0; pixels]; if channels { n } else { 0 }];
         let mut wide = Self {
-            mean: vec![vec![0.0; pixels]; l.channels],
-            variance: vec![vec![0.0; pixels]; l.with_errors],
+            mean: planes(l.channels),
+            variance: planes(l.with_errors),
             y: vec![0.0; pixels],
             y_variance: vec![0.0; pixels],
             dof: vec![0; pixels],
             flagged: vec![false; pixels],
             pooled: vec![false; pixels],
         };
-        let mut stats = PixelStats::new(spec, &film.planes);
+        let mut stats = PixelStats::new(spec, &film.planes, channels);
         for p in 0..pixels {
             stats.load(p);
             wide.store(p, &stats);
         }
         wide.pool(film);
-        for p in 0..pixels {
+        for p in (0..pixels).filter(|&p| wide.pooled[p]) {
             stats.load(p);
             wide.flagged[p] = stats.dominated(p, wide.y_variance[p]);
         }
@@ -151,6 +153,7 @@ impl Wide {
         self.y[p] = s.y;
         self.y_variance[p] = s.y_variance;
         self.dof[p] = s.dof;
+        self.flagged[p] = s.dominated(p, s.y_variance);
     }
 
     /// Replaces the errors of pixels with fewer than two samples a replicate by those of their tile.

@@ -57,18 +57,27 @@ pub(crate) fn add_square(sum: &mut Square, square: f64) -> bool {
     } else {
         (false, u128::from(shift_right(m, shift.unsigned_abs())))
     };
-    let (lo, hi) = (wide as u64, (wide >> 64) as u64);
-    add_limbs(sum, if upper { [0, lo, hi] } else { [lo, hi, 0] })
+    add_parts(sum, if upper { wide << 64 } else { wide }, if upper { (wide >> 64) as u64 } else { 0 })
 }
 
 /// Adds a sum of squares; true when it overflowed.
 #[inline(always)]
 pub(crate) fn add_limbs(sum: &mut Square, b: Square) -> bool {
-    let low = u128::from(sum[0]) + u128::from(b[0]);
-    let mid = u128::from(sum[1]) + u128::from(b[1]) + (low >> 64);
-    let top = u128::from(sum[2]) + u128::from(b[2]) + (mid >> 64);
-    *sum = [low as u64, mid as u64, top as u64];
-    top >> 64 != 0
+    add_parts(sum, join(b[0], b[1]), b[2])
+}
+
+#[inline(always)]
+fn add_parts(sum: &mut Square, low: u128, top: u64) -> bool {
+    let (low, carry) = join(sum[0], sum[1]).overflowing_add(low);
+    let (top, over) = sum[2].overflowing_add(top);
+    let (top, over_again) = top.overflowing_add(u64::from(carry));
+    *sum = [low as u64, (low >> 64) as u64, top];
+    over | over_again
+}
+
+#[inline(always)]
+fn join(low: u64, high: u64) -> u128 {
+    u128::from(high) << 64 | u128::from(low)
 }
 
 /// The value of a sum of squares.

@@ -96,7 +96,7 @@ impl Patch {
     fn accumulate(&mut self, x: u32, y: u32, sample: u32, weight: f32, values: &[f32], luma: f64) {
         let l = self.planes.layout;
         let pixel = self.planes.bounds.index(x, y);
-        let slot = if l.slots == 1 { 0 } else { sample as usize % l.slots };
+        let slot = if l.slots == 1 { 0 } else { (sample % l.slots as u32) as usize };
         self.planes.counts[pixel * l.slots + slot] += 1;
         let key = (u64::from((luma.abs() as f32).to_bits()) << 32) | u64::from(!sample);
         let largest = &mut self.planes.largest[pixel];

@@ -37,13 +37,14 @@ pub(crate) struct PixelStats<'f> {
 }
 
 impl<'f> PixelStats<'f> {
-    pub fn new(spec: &FilmSpec, planes: &'f Planes) -> Self {
+    /// With the variances of all channels, or of Y alone.
+    pub fn new(spec: &FilmSpec, planes: &'f Planes, channels: bool) -> Self {
         Self {
             planes,
             luminance: spec.luminance.iter().map(|&w| f64::from(w)).collect(),
             replicated: matches!(spec.mode, ErrorMode::Replicated { .. }),
             mean: vec![0.0; planes.layout.channels],
-            variance: vec![f64::INFINITY; planes.layout.with_errors],
+            variance: vec![f64::INFINITY; if channels { planes.layout.with_errors } else { 0 }],
             y: 0.0,
             y_variance: f64::INFINITY,
             dof: 0,
@@ -123,9 +124,11 @@ impl<'f> PixelStats<'f> {
             let w = self.planes.weight(pixel, slot);
             let sums = self.planes.slot_sums(pixel, slot);
             let mut luma = 0.0;
-            for c in 0..self.variance.len() {
+            for c in 0..self.variance.len().max(self.luminance.len()) {
                 let residual = fixed::to_f64(sums[c]) - self.mean[c] * w;
-                self.variance[c] += residual * residual;
+                if let Some(v) = self.variance.get_mut(c) {
+                    *v += residual * residual;
+                }
                 luma += self.luminance.get(c).map_or(0.0, |weight| weight * residual);
             }
             self.y_variance += luma * luma;

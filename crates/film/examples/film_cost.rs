@@ -1,4 +1,4 @@
-//! Cost of a sample: `cargo run --release -p tyndall-film --example cost`.
+//! Cost of a sample: `cargo run --release -p tyndall-film --example film_cost`.
 
 use std::hint::black_box;
 use std::sync::Arc;
