@@ -283,8 +283,8 @@ mod tests {
 
     #[test]
     fn cone_interval_holds_exactly_the_lit_points() {
-        let spot =
-            SpotLight::new(vec3(0.0, 3.0, 0.0), vec3(0.0, -1.0, 0.0), Curve::ONE.into(), 20.0, 5.0).expect("valid");
+        let spot = SpotLight::new(vec3(0.0, 3.0, 0.0), vec3(0.0, -1.0, 0.0), Curve::ONE.into(), 20.0, 5.0)
+            .expect("valid");
         let rays = [
             (vec3(-5.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)),
             (vec3(-5.0, 5.0, 0.0), vec3(1.0, 0.0, 0.0)),

@@ -156,7 +156,8 @@ struct FirstSurface<const N: usize> {
 impl<const N: usize> FirstSurface<N> {
     fn along(scene: &Scene, ray: &Ray, w: &Wavelengths<N>) -> Self {
         let mut tau = Spectrum::ZERO;
-        let mut found = Self { distance: 0.0, normal: Vec3::ZERO, albedo: Spectrum::ZERO, transmittance: Spectrum::ONE };
+        let mut found =
+            Self { distance: 0.0, normal: Vec3::ZERO, albedo: Spectrum::ZERO, transmittance: Spectrum::ONE };
         let (mut ray, mut medium, mut travelled) = (*ray, scene.camera_medium, 0.0);
         loop {
             let hit = scene.intersect(&ray);

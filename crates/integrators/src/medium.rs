@@ -60,8 +60,11 @@ impl<'s, const N: usize> Inside<'s, N> {
         let absorbed = exp(-tau);
         Spectrum::from_fn(|k| {
             // the series keeps thin segments exact where 1 - exp(-tau) would cancel
-            let depth =
-                if tau[k] < 1e-2 { t * (1.0 - 0.5 * tau[k] + tau[k] * tau[k] * (1.0 / 6.0)) } else { (1.0 - absorbed[k]) / self.sigma_t[k] };
+            let depth = if tau[k] < 1e-2 {
+                t * (1.0 - 0.5 * tau[k] + tau[k] * tau[k] * (1.0 / 6.0))
+            } else {
+                (1.0 - absorbed[k]) / self.sigma_t[k]
+            };
             if self.sigma_a[k] > 0.0 { self.le[k] * self.sigma_a[k] * depth } else { 0.0 }
         })
     }

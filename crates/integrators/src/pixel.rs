@@ -178,8 +178,7 @@ impl PixelPass {
 
     #[inline(always)]
     fn start<const N: usize>(&self, x: u32, y: u32, sample: u32) -> Start<N> {
-        let mut sampler =
-            PathSampler::new(self.settings.sampler, self.seed, x, y, sample, self.replicates);
+        let mut sampler = PathSampler::new(self.settings.sampler, self.seed, x, y, sample, self.replicates);
         let u_film = sampler.next_2d();
         let u_spectrum = sampler.next_2d();
         let lens = sampler.next_2d();

@@ -129,7 +129,8 @@ impl<'s, const N: usize> Walk<'s, N> {
             return None;
         }
         let segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;
-        let at = equiangular::Origin { medium: self.medium, inside, weight: &self.weight, order: self.depth + 1 };
+        let at =
+            equiangular::Origin { medium: self.medium, inside, weight: &self.weight, order: self.depth + 1 };
         self.l += equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler, seen);
         Some(segment)
     }

@@ -40,11 +40,7 @@ impl Projective {
     /// pbrt's default window: the shorter side spans -1 to 1; `frame_aspect` overrides width over height.
     pub fn default_screen(resolution: [u32; 2], frame_aspect: Option<f32>) -> [f32; 4] {
         let aspect = frame_aspect.unwrap_or(resolution[0] as f32 / resolution[1] as f32);
-        if aspect > 1.0 {
-            [-aspect, aspect, -1.0, 1.0]
-        } else {
-            [-1.0, 1.0, -1.0 / aspect, 1.0 / aspect]
-        }
+        if aspect > 1.0 { [-aspect, aspect, -1.0, 1.0] } else { [-1.0, 1.0, -1.0 / aspect, 1.0 / aspect] }
     }
 
     /// Refuses empty films and windows, negative lenses and focal planes behind the camera.

@@ -27,7 +27,7 @@ impl Orthographic {
         if c.lens_radius > 0.0 {
             let lens = c.lens_point(sample.lens);
             let focus = o + d * c.focal_distance;
-            o = o + vec3(lens.x, lens.y, 0.0);
+            o += vec3(lens.x, lens.y, 0.0);
             d = focus - o;
         }
         let mut ray = Ray::new(c.to_world.point(o), c.to_world.vector(d).normalize());

@@ -51,7 +51,8 @@ impl AreaLight {
             return None;
         }
         let l = self.radiance(s.n, [s.uv.x, s.uv.y], -wi, w);
-        let target = Target { p: s.p, rounding: s.rounding, n: s.n, pdf_area: group.pdf_area_of(self.prim, from, &s) };
+        let target =
+            Target { p: s.p, rounding: s.rounding, n: s.n, pdf_area: group.pdf_area_of(self.prim, from, &s) };
         (!l.is_zero()).then_some(LiSample { l, wi, target: Some(target), pdf: s.pdf, delta: false })
     }
 

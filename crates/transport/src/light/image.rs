@@ -98,7 +98,6 @@ impl ImageInfiniteLight {
     }
 }
 
-
 /// The unit square to the sphere, area preserving.
 pub fn square_to_sphere(uv: [f32; 2]) -> Vec3 {
     let (u, v) = (2.0 * uv[0] - 1.0, 2.0 * uv[1] - 1.0);

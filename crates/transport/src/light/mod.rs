@@ -116,10 +116,7 @@ impl Light {
     /// Draws a point of the light in area; `None` for lights at infinity.
     #[inline]
     pub fn sample_position(&self, accel: &Accel, u: [f32; 2]) -> Option<PositionSample> {
-        let at = |p| PositionSample {
-            target: Target::free(p),
-            uv: [0.0; 2],
-        };
+        let at = |p| PositionSample { target: Target::free(p), uv: [0.0; 2] };
         match self {
             Self::Area(l) => Some(l.sample_position(accel, u)),
             Self::Point(l) => Some(at(l.p)),

@@ -57,11 +57,7 @@ impl Choice {
 
 impl LightSet {
     /// `weigh` integrates an emission spectrum over wavelength.
-    pub fn new(
-        lights: Vec<Light>,
-        scene_radius: f32,
-        weigh: &dyn Fn(&Emission) -> f64,
-    ) -> Self {
+    pub fn new(lights: Vec<Light>, scene_radius: f32, weigh: &dyn Fn(&Emission) -> f64) -> Self {
         let powers: Vec<f64> = lights.iter().map(|l| l.extent(scene_radius) * weigh(l.spectrum())).collect();
         let infinite = (0..lights.len())
             .filter(|&i| matches!(lights[i], Light::Infinite(_) | Light::Image(_)))

@@ -41,11 +41,7 @@ impl ConductorMaterial {
     }
 
     /// Fresnel reflectance at normal incidence.
-    pub fn normal_reflectance<const N: usize>(
-        &self,
-        at: &TextureContext,
-        w: &Wavelengths<N>,
-    ) -> Spectrum<N> {
+    pub fn normal_reflectance<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Spectrum<N> {
         let (eta, k) = self.index(at, w);
         Spectrum::from_fn(|i| fresnel::fresnel_conductor(1.0, eta[i], k[i]))
     }

@@ -57,5 +57,5 @@ impl DiffuseTransmissionMaterial {
 
 #[inline(always)]
 pub(super) fn clamp<const N: usize>(s: Spectrum<N>) -> Spectrum<N> {
-    s.map(|v| if v < 0.0 { 0.0 } else if v > 1.0 { 1.0 } else { v })
+    s.map(|v| v.clamp(0.0, 1.0))
 }

@@ -4,8 +4,8 @@
 //! do the filtering. (0, 0) of texture space is the lower left corner of the image.
 
 use super::{Mapping, TextureContext};
-use tyndall_base::Vec2;
 use std::sync::Arc;
+use tyndall_base::Vec2;
 use tyndall_spectral::{
     Spectrum, Wavelengths,
     colour::{ColourSpace, SpaceName},
