@@ -3,4 +3,6 @@
 
 pub mod scene;
 
-pub use scene::{FilmDescription, IntegratorDescription, LoadOptions, LoadedScene, Units, load_file, load_text};
+pub use scene::{
+    FilmDescription, IntegratorDescription, LoadOptions, LoadedScene, Units, load_file, load_text,
+};

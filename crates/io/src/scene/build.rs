@@ -1,10 +1,10 @@
 //! From collected directives to the scene.
 
 use super::{
-    LoadOptions, LoadedScene,
-    camera,
+    LoadOptions, LoadedScene, camera,
     collect::{Collected, Declared, ShapeRecord},
     context::{Context, at},
+    degenerate,
     emission::Units,
     film, light,
     material::Materials,
@@ -32,7 +32,12 @@ struct Media {
 }
 
 impl Media {
-    fn new(ctx: &Context<'_>, collected: &Collected, units: &mut Units, ignored: bool) -> Result<Self, Error> {
+    fn new(
+        ctx: &Context<'_>,
+        collected: &Collected,
+        units: &mut Units,
+        ignored: bool,
+    ) -> Result<Self, Error> {
         let mut media = Self { table: Vec::new(), ids: HashMap::new(), names: Vec::new(), ignored };
         for declared in &collected.media {
             let name = declared.name.as_str().to_owned();
@@ -142,13 +147,16 @@ pub fn build(
     let (objects, instances) = instances(ctx, collected, &mut groups, &materials, &media)?;
 
     let start = Instant::now();
-    let accel = Accel::build(groups.groups, &objects, instances, &BuildOptions { dispatch: options.dispatch })
-        .map_err(|e| shape_error(&groups.records, e))?;
+    let accel =
+        Accel::build(groups.groups, &objects, instances, &BuildOptions { dispatch: options.dispatch })
+            .map_err(|e| shape_error(&groups.records, e))?;
     let build_seconds = start.elapsed().as_secs_f64();
+    degenerate::check(ctx, &groups.records, &accel)?;
 
     for (index, record) in groups.records.iter().enumerate() {
         let binding = &mut groups.bindings[index];
-        binding.first_light = area_lights(ctx, record, index, index < world, binding, &accel, &mut lights, &mut units)?;
+        binding.first_light =
+            area_lights(ctx, record, index, index < world, binding, &accel, &mut lights, &mut units)?;
     }
     if units.normalised && units.absolute {
         ctx.warnings.warn_without_place(
@@ -163,8 +171,16 @@ pub fn build(
     let lights = LightSet::new(lights, radius, &|e| visible_power(e, ctx.range));
     let stats = accel.stats();
     let has_boundaries = groups.bindings.iter().any(|b| b.material.is_interface());
-    let scene =
-        Scene { accel, has_boundaries, shapes: groups.bindings, materials: materials.table, media: media.table, lights, camera, camera_medium };
+    let scene = Scene {
+        accel,
+        has_boundaries,
+        shapes: groups.bindings,
+        materials: materials.table,
+        media: media.table,
+        lights,
+        camera,
+        camera_medium,
+    };
     Ok(LoadedScene {
         scene,
         film,
@@ -230,7 +246,8 @@ fn instances<'a>(
             });
         };
         if instance.ctm.moves() {
-            ctx.warnings.warn(place(), "moving instances are not supported in this version: the start counts");
+            ctx.warnings
+                .warn(place(), "moving instances are not supported in this version: the start counts");
         }
         placed.push(InstanceDesc { object, to_world: instance.ctm.start });
     }
@@ -281,7 +298,8 @@ fn visible_power(emission: &Emission, range: LambdaRange) -> f64 {
         f64::from(seen) / 320.0 + 0.5 / width
     };
     let at = |i: usize| range.min + range.width() * (i as f32 + 0.5) / steps as f32;
-    let continuum: f64 = (0..steps).map(|i| weight(at(i)) * f64::from(emission.continuum().eval(at(i)))).sum();
+    let continuum: f64 =
+        (0..steps).map(|i| weight(at(i)) * f64::from(emission.continuum().eval(at(i)))).sum();
     let lines: f64 = emission.lines().iter().map(|l| weight(l.lambda) * f64::from(l.power)).sum();
     continuum * width / steps as f64 + lines
 }

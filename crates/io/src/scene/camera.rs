@@ -8,12 +8,24 @@ use tyndall_pbrt::Error;
 use tyndall_transport::camera::{Camera, Orthographic, Perspective, Projective};
 
 const KNOWN: [&str; 10] = [
-    "fov", "halffov", "screenwindow", "lensradius", "focaldistance", "frameaspectratio", "shutteropen",
-    "shutterclose", "type", "filename",
+    "fov",
+    "halffov",
+    "screenwindow",
+    "lensradius",
+    "focaldistance",
+    "frameaspectratio",
+    "shutteropen",
+    "shutterclose",
+    "type",
+    "filename",
 ];
 
 /// The camera, and the shutter's opening and closing times.
-pub fn camera(ctx: &Context<'_>, declared: &Declared, resolution: [u32; 2]) -> Result<(Camera, [f64; 2]), Error> {
+pub fn camera(
+    ctx: &Context<'_>,
+    declared: &Declared,
+    resolution: [u32; 2],
+) -> Result<(Camera, [f64; 2]), Error> {
     let p = &declared.params;
     let shutter = [p.float64("shutteropen", 0.0)?, p.float64("shutterclose", 1.0)?];
     if shutter[1] <= shutter[0] {

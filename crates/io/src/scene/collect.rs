@@ -4,8 +4,8 @@ use super::state::{AreaLight, GraphicsState, MaterialRef, Moving};
 use std::{collections::HashMap, sync::Arc};
 use tyndall_geometry::{GeometryError, Transform};
 use tyndall_pbrt::{
-    AttributeTarget, Diagnostics, Directive, DirectiveKind, Entity, EntityKind, Error, ErrorKind, OptionValue,
-    ParamSet, Parser, Place, Text, TextureValue,
+    AttributeTarget, Diagnostics, Directive, DirectiveKind, Entity, EntityKind, Error, ErrorKind,
+    OptionValue, ParamSet, Parser, Place, Text, TextureValue,
 };
 
 /// A declaration by class and parameters.
@@ -25,7 +25,8 @@ impl Declared {
     /// The directive that counts where the scene has none: `Film "rgb"`, `Camera "perspective"`.
     pub fn default_of(kind: EntityKind, class: &str) -> Result<Self, Error> {
         let text = format!("{} \"{class}\"", kind.name());
-        let mut parser = Parser::from_bytes("(default)", text.into_bytes(), std::path::Path::new(""))?.fragment();
+        let mut parser =
+            Parser::from_bytes("(default)", text.into_bytes(), std::path::Path::new(""))?.fragment();
         let collected = collect(&mut parser, &Diagnostics::default())?;
         let missing = || Error::in_file(ErrorKind::Other(format!("no default {}", kind.name())), "scene");
         collected.options.get(&kind).cloned().ok_or_else(missing)
@@ -190,14 +191,16 @@ impl Collector<'_> {
             DirectiveKind::CoordSysTransform(name) => match self.systems.get(name.as_str()) {
                 Some(ctm) => self.state.ctm = *ctm,
                 None => {
-                    let message = format!("no coordinate system \"{}\": the transformation stays", name.as_str());
+                    let message =
+                        format!("no coordinate system \"{}\": the transformation stays", name.as_str());
                     self.warnings.warn(place.clone(), message);
                 }
             },
             DirectiveKind::ActiveTransform(active) => self.state.set_active(active),
             DirectiveKind::TransformTimes(times) => self.out.times = times,
             DirectiveKind::ImportBegin(_) => {
-                self.imports.push((self.state.clone(), self.systems.clone()));
+                // an import sees the state, but not the named coordinate systems
+                self.imports.push((self.state.clone(), std::mem::take(&mut self.systems)));
             }
             DirectiveKind::ImportEnd => {
                 if let Some((state, systems)) = self.imports.pop() {
@@ -230,7 +233,8 @@ impl Collector<'_> {
     }
 
     fn pop(&mut self, place: &Place) -> Result<(), Error> {
-        let unmatched = || Error::new(ErrorKind::Other("AttributeEnd without AttributeBegin".into()), place.clone());
+        let unmatched =
+            || Error::new(ErrorKind::Other("AttributeEnd without AttributeBegin".into()), place.clone());
         self.state = self.stack.pop().ok_or_else(unmatched)?;
         Ok(())
     }

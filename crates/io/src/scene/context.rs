@@ -1,6 +1,6 @@
 //! What all readers of directives share.
 
-use std::path::PathBuf;
+use std::{cell::RefCell, path::PathBuf};
 use tyndall_pbrt::{Diagnostics, Error, ErrorKind, ParamSet, Resolver, Text};
 use tyndall_spectral::{Curve, LambdaRange, SpectralError};
 
@@ -15,6 +15,8 @@ pub struct Context<'a> {
     pub warnings: &'a Diagnostics,
     /// Finds files.
     pub resolver: &'a Resolver,
+    /// Files that were found, for the scene's hash.
+    pub files: &'a RefCell<Vec<PathBuf>>,
 }
 
 /// Turns any error of a model's constructor into one at a directive.
@@ -37,6 +39,7 @@ impl Context<'_> {
                 if let Some(note) = found.note {
                     self.warnings.note(place, note);
                 }
+                self.files.borrow_mut().push(found.path.clone());
                 Ok(found.path)
             }
             Err(missing) => {

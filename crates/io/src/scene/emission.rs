@@ -75,7 +75,8 @@ fn build(
         return Ok(emission.scaled(scale as f32));
     }
     units.normalised = true;
-    let in_lines: f64 = lines.iter().map(|l| f64::from(l.power) * f64::from(cie::y_bar().eval(l.lambda))).sum();
+    let in_lines: f64 =
+        lines.iter().map(|l| f64::from(l.power) * f64::from(cie::y_bar().eval(l.lambda))).sum();
     let photometric = light.photometric + in_lines;
     if photometric <= 0.0 {
         let message = "the spectrum has no visible part, so pbrt's normalisation would divide by zero";
@@ -87,7 +88,12 @@ fn build(
 fn lines(params: &ParamSet) -> Result<Vec<Line>, Error> {
     let Some(values) = params.floats("lines")? else { return Ok(Vec::new()) };
     if values.len() % 2 == 1 {
-        return Err(refuse(params, "lines", "must be pairs of wavelength and power", format!("{} numbers", values.len())));
+        return Err(refuse(
+            params,
+            "lines",
+            "must be pairs of wavelength and power",
+            format!("{} numbers", values.len()),
+        ));
     }
     Ok(values.as_chunks::<2>().0.iter().map(|&[lambda, power]| Line { lambda, power }).collect())
 }

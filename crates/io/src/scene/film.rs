@@ -34,7 +34,8 @@ impl FilmDescription {
         let mut sensor = Sensor::cie1931(self.imaging_ratio);
         let space = tyndall_spectral::ColourSpace::get(self.space);
         if let Some(kelvin) = self.white_balance {
-            let light = illuminant::daylight(kelvin).map_err(|e| FilmError::Channels { what: e.to_string() })?;
+            let light =
+                illuminant::daylight(kelvin).map_err(|e| FilmError::Channels { what: e.to_string() })?;
             let from = colour::chromaticity(cie::xyz(&light));
             sensor = sensor.balanced(&colour::white_balance(from, colour::chromaticity(space.white)).0);
         }
@@ -44,8 +45,22 @@ impl FilmDescription {
 }
 
 const KNOWN: [&str; 16] = [
-    "xresolution", "yresolution", "cropwindow", "pixelbounds", "diagonal", "filename", "savefp16", "sensor", "iso",
-    "whitebalance", "maxcomponentvalue", "nbuckets", "lambdamin", "lambdamax", "exposuretime", "coordinatesystem",
+    "xresolution",
+    "yresolution",
+    "cropwindow",
+    "pixelbounds",
+    "diagonal",
+    "filename",
+    "savefp16",
+    "sensor",
+    "iso",
+    "whitebalance",
+    "maxcomponentvalue",
+    "nbuckets",
+    "lambdamin",
+    "lambdamax",
+    "exposuretime",
+    "coordinatesystem",
 ];
 
 /// The film of the scene; `exposure` is the shutter's open time \[s\].
@@ -59,13 +74,19 @@ pub fn film(ctx: &Context<'_>, declared: &Declared, exposure: f64) -> Result<Fil
     let sensor = p.string("sensor", "cie1931")?;
     if sensor != "cie1931" {
         let hint = "\"cie1931\", pbrt's default, is the CIE 1931 standard observer";
-        return Err(refuse(p, "sensor", "must be \"cie1931\" in this version", format!("\"{sensor}\"")).hint(hint));
+        return Err(
+            refuse(p, "sensor", "must be \"cie1931\" in this version", format!("\"{sensor}\"")).hint(hint)
+        );
     }
     p.ignore("savefp16", "images are written in 32 bits");
     p.ignore("diagonal", "only a realistic camera has use for the film's size");
     if p.contains("maxcomponentvalue") {
         p.ignore("maxcomponentvalue", "samples are never clipped in silence");
-        p.warn_at("maxcomponentvalue", "maxcomponentvalue: ignored, samples are never clipped in silence", ctx.warnings);
+        p.warn_at(
+            "maxcomponentvalue",
+            "maxcomponentvalue: ignored, samples are never clipped in silence",
+            ctx.warnings,
+        );
     }
     let band_edges = match declared.name.as_str() {
         "rgb" => Vec::new(),
@@ -118,7 +139,9 @@ fn bands(p: &ParamSet, ctx: &Context<'_>) -> Result<Vec<f32>, Error> {
 fn bounds(p: &ParamSet, [w, h]: [u32; 2]) -> Result<PixelBounds, Error> {
     let whole = PixelBounds::new(0, 0, w, h);
     if let Some(crop) = p.floats("cropwindow")? {
-        let [x0, x1, y0, y1] = *crop else { return Err(refuse(p, "cropwindow", "must be 4 numbers", crop.len())) };
+        let [x0, x1, y0, y1] = *crop else {
+            return Err(refuse(p, "cropwindow", "must be 4 numbers", crop.len()));
+        };
         if !(x0 < x1 && y0 < y1 && x0 >= 0.0 && y0 >= 0.0 && x1 <= 1.0 && y1 <= 1.0) {
             let got = format!("{x0} {x1} {y0} {y1}");
             return Err(refuse(p, "cropwindow", "must be x0 x1 y0 y1 within 0 and 1, ascending", got));
@@ -126,10 +149,17 @@ fn bounds(p: &ParamSet, [w, h]: [u32; 2]) -> Result<PixelBounds, Error> {
         return Ok(crop_bounds([x0, x1, y0, y1], [w, h]));
     }
     let Some(given) = p.integers("pixelbounds")? else { return Ok(whole) };
-    let [x0, x1, y0, y1] = *given else { return Err(refuse(p, "pixelbounds", "must be 4 integers", given.len())) };
+    let [x0, x1, y0, y1] = *given else {
+        return Err(refuse(p, "pixelbounds", "must be 4 integers", given.len()));
+    };
     if !(0 <= x0 && x0 < x1 && x1 as u32 <= w && 0 <= y0 && y0 < y1 && y1 as u32 <= h) {
         let got = format!("{x0} {x1} {y0} {y1}");
-        return Err(refuse(p, "pixelbounds", &format!("must be x0 x1 y0 y1 within {w} x {h}, ascending"), got));
+        return Err(refuse(
+            p,
+            "pixelbounds",
+            &format!("must be x0 x1 y0 y1 within {w} x {h}, ascending"),
+            got,
+        ));
     }
     Ok(PixelBounds::new(x0 as u32, y0 as u32, x1 as u32, y1 as u32))
 }

@@ -17,8 +17,25 @@ use tyndall_transport::light::{
 };
 
 const KNOWN: [&str; 19] = [
-    "L", "I", "scale", "power", "illuminance", "from", "to", "coneangle", "conedeltaangle", "filename", "portal",
-    "twosided", "absolute", "lines", "extrapolate", "interpolation", "fov", "mapname", "spectrum",
+    "L",
+    "I",
+    "scale",
+    "power",
+    "illuminance",
+    "from",
+    "to",
+    "coneangle",
+    "conedeltaangle",
+    "filename",
+    "portal",
+    "twosided",
+    "absolute",
+    "lines",
+    "extrapolate",
+    "interpolation",
+    "fov",
+    "mapname",
+    "spectrum",
 ];
 
 /// All light sources but emitting shapes.
@@ -64,7 +81,13 @@ fn light(ctx: &Context<'_>, record: &LightRecord, units: &mut Units) -> Result<L
 }
 
 /// pbrt's `power` and `illuminance`: the target over what a unit of the normalised emission gives.
-fn powered(p: &ParamSet, name: &str, emission: Emission, per_unit: f64, units: &Units) -> Result<Emission, Error> {
+fn powered(
+    p: &ParamSet,
+    name: &str,
+    emission: Emission,
+    per_unit: f64,
+    units: &Units,
+) -> Result<Emission, Error> {
     let Some(target) = p.float64_opt(name)?.filter(|v| *v > 0.0) else { return Ok(emission) };
     if units.absolute {
         return Err(p.error_at(name, "must not be given with \"bool absolute\" true", &target.to_string()));
@@ -145,17 +168,21 @@ fn image(ctx: &Context<'_>, record: &LightRecord, units: &mut Units) -> Result<L
     }
     let mean = mean_emission(&colours, space, white, scale).map_err(|e| at(p, e))?;
     let white = white.scaled(scale as f32);
-    let image = EnvironmentImage { size, texels: colours.iter().map(emission).collect(), white, weights, mean };
+    let image =
+        EnvironmentImage { size, texels: colours.iter().map(emission).collect(), white, weights, mean };
     Ok(Light::Image(ImageInfiniteLight::new(image, axes(&declared.ctm.start)).map_err(|e| at(p, e))?))
 }
 
 /// Luminance with a small floor, so that no coloured texel is left out.
 fn luminances(colours: &[[f32; 3]], space: tyndall_spectral::SpaceName) -> Vec<f32> {
     let row = tyndall_spectral::ColourSpace::get(space).xyz_from_rgb.0[1].map(|v| v as f32);
-    colours.iter().map(|c| {
-        let y = row[0] * c[0] + row[1] * c[1] + row[2] * c[2];
-        y.max(0.0) + 0.01 * (c[0] + c[1] + c[2])
-    }).collect()
+    colours
+        .iter()
+        .map(|c| {
+            let y = row[0] * c[0] + row[1] * c[1] + row[2] * c[2];
+            y.max(0.0) + 0.01 * (c[0] + c[1] + c[2])
+        })
+        .collect()
 }
 
 fn mean_emission(
@@ -208,7 +235,11 @@ pub fn area(
     }
     if p.contains("filename") {
         p.unsupported("filename", "images on area lights come in a later version");
-        return Err(p.error_at("filename", "images on area lights are not supported in this version", "an image"));
+        return Err(p.error_at(
+            "filename",
+            "images on area lights are not supported in this version",
+            "an image",
+        ));
     }
     let two_sided = p.bool("twosided", false)?;
     let emission = emission::of_light(ctx, p, "L", space, units)?;

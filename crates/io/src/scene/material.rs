@@ -75,8 +75,20 @@ impl Materials {
 }
 
 const KNOWN: [&str; 14] = [
-    "type", "reflectance", "transmittance", "scale", "eta", "k", "roughness", "uroughness", "vroughness",
-    "remaproughness", "displacement", "normalmap", "extrapolate", "interpolation",
+    "type",
+    "reflectance",
+    "transmittance",
+    "scale",
+    "eta",
+    "k",
+    "roughness",
+    "uroughness",
+    "vroughness",
+    "remaproughness",
+    "displacement",
+    "normalmap",
+    "extrapolate",
+    "interpolation",
 ];
 
 /// `None` is the interface material.
@@ -89,7 +101,9 @@ fn material(
     let p = &declared.params;
     let made = match class {
         "interface" | "" | "none" => None,
-        "diffuse" => Some(Material::Diffuse(DiffuseMaterial { reflectance: albedo(p, textures, "reflectance", 0.5)? })),
+        "diffuse" => {
+            Some(Material::Diffuse(DiffuseMaterial { reflectance: albedo(p, textures, "reflectance", 0.5)? }))
+        }
         "diffusetransmission" => Some(Material::DiffuseTransmission(DiffuseTransmissionMaterial {
             reflectance: albedo(p, textures, "reflectance", 0.25)?,
             transmittance: albedo(p, textures, "transmittance", 0.25)?,
@@ -109,7 +123,11 @@ fn material(
     for name in ["displacement", "normalmap"] {
         if p.contains(name) {
             p.unsupported(name, "bump and normal maps are not supported in this version");
-            p.warn_at(name, format!("{name}: not supported in this version; the surface stays smooth"), ctx.warnings);
+            p.warn_at(
+                name,
+                format!("{name}: not supported in this version; the surface stays smooth"),
+                ctx.warnings,
+            );
         }
     }
     ctx.finish(p, &KNOWN);
@@ -125,7 +143,8 @@ fn conductor(p: &ParamSet, textures: &Textures<'_>) -> Result<ConductorMaterial,
     let eta = textures.spectrum(p, "eta", Purpose::Unbounded)?;
     let k = textures.spectrum(p, "k", Purpose::Unbounded)?;
     let reflectance = textures.spectrum(p, "reflectance", Purpose::Albedo)?;
-    let copper = |name: &str| named::named_spectrum(name).ok_or_else(|| p.error(format!("no spectrum {name}")));
+    let copper =
+        |name: &str| named::named_spectrum(name).ok_or_else(|| p.error(format!("no spectrum {name}")));
     let metal = match (reflectance, eta, k) {
         (Some(r), None, None) => Metal::Reflectance(r),
         (Some(_), _, _) => {
@@ -143,7 +162,8 @@ fn eta(ctx: &Context<'_>, p: &ParamSet) -> Result<Curve, Error> {
     let eta = float_or_curve(ctx, p, "eta", Purpose::Unbounded)?.unwrap_or(Curve::Constant(1.5));
     let [low, high] = eta.bounds(ctx.range);
     if !(low > 0.0 && high.is_finite()) {
-        let hint = "a table of indices must cover the whole range; \"string extrapolate\" \"hold\" keeps its ends";
+        let hint =
+            "a table of indices must cover the whole range; \"string extrapolate\" \"hold\" keeps its ends";
         return Err(refuse(p, "eta", "must be > 0 at every wavelength of the film", low).hint(hint));
     }
     Ok(eta)

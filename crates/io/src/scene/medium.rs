@@ -3,8 +3,7 @@
 use super::{
     collect::Declared,
     context::{Context, at, refuse},
-    emission,
-    phase,
+    emission, phase,
     spectrum::{self, Purpose},
 };
 use tyndall_pbrt::{Error, ParamSet};
@@ -12,8 +11,28 @@ use tyndall_spectral::{Curve, colour::SpaceName, media_presets, upsample};
 use tyndall_transport::media::{Homogeneous, Medium};
 
 const KNOWN: [&str; 22] = [
-    "type", "preset", "sigma_a", "sigma_s", "scale", "Le", "Lescale", "g", "phase", "absolute", "extrapolate",
-    "interpolation", "depolarisation", "alpha", "g2", "weight", "n", "mu", "k", "lines", "density", "filename",
+    "type",
+    "preset",
+    "sigma_a",
+    "sigma_s",
+    "scale",
+    "Le",
+    "Lescale",
+    "g",
+    "phase",
+    "absolute",
+    "extrapolate",
+    "interpolation",
+    "depolarisation",
+    "alpha",
+    "g2",
+    "weight",
+    "n",
+    "mu",
+    "k",
+    "lines",
+    "density",
+    "filename",
 ];
 
 /// The medium of a directive.
@@ -25,22 +44,34 @@ pub fn medium(ctx: &Context<'_>, declared: &Declared, units: &mut emission::Unit
         "" => return Err(params.missing("string", "type")),
         other => {
             let known = "this version has \"homogeneous\"";
-            return Err(refuse(params, "type", "must be a medium that is supported", format!("\"{other}\"")).hint(known));
+            return Err(refuse(params, "type", "must be a medium that is supported", format!("\"{other}\""))
+                .hint(known));
         }
     };
     ctx.finish(params, &KNOWN);
     Ok(medium)
 }
 
-fn homogeneous(ctx: &Context<'_>, params: &ParamSet, units: &mut emission::Units) -> Result<Homogeneous, Error> {
+fn homogeneous(
+    ctx: &Context<'_>,
+    params: &ParamSet,
+    units: &mut emission::Units,
+) -> Result<Homogeneous, Error> {
     let [sigma_a, sigma_s] = coefficients(ctx, params)?;
+    for (name, curve) in [("sigma_a", &sigma_a), ("sigma_s", &sigma_s)] {
+        let least = curve.min_value(ctx.range);
+        if least < 0.0 {
+            return Err(refuse(params, name, "must be >= 0", format!("{least} 1/m")));
+        }
+    }
     let scale = params.float("scale", 1.0)?;
     if !(scale >= 0.0 && scale.is_finite()) {
         return Err(refuse(params, "scale", "must be finite and >= 0", scale));
     }
     let le = emission::of_medium(ctx, params, units)?;
     let phase = phase::phase(ctx, params)?;
-    Homogeneous::new(sigma_a.scaled(scale), sigma_s.scaled(scale), le, phase, ctx.range).map_err(|e| at(params, e))
+    Homogeneous::new(sigma_a.scaled(scale), sigma_s.scaled(scale), le, phase, ctx.range)
+        .map_err(|e| at(params, e))
 }
 
 /// sigma_a, sigma_s: of a preset (in 1/mm as pbrt has them, used as they stand), else given, else 1.
@@ -64,7 +95,9 @@ fn coefficients(ctx: &Context<'_>, params: &ParamSet) -> Result<[Curve; 2], Erro
             }
         };
     }
-    let one = |name| Ok::<_, Error>(spectrum::float_or_curve(ctx, params, name, Purpose::Unbounded)?.unwrap_or(Curve::ONE));
+    let one = |name| {
+        Ok::<_, Error>(spectrum::float_or_curve(ctx, params, name, Purpose::Unbounded)?.unwrap_or(Curve::ONE))
+    };
     Ok([one("sigma_a")?, one("sigma_s")?])
 }
 

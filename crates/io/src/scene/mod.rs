@@ -5,6 +5,7 @@ mod camera;
 mod collect;
 mod color_space;
 mod context;
+mod degenerate;
 mod emission;
 mod film;
 mod image;
@@ -23,7 +24,13 @@ pub use emission::Units;
 pub use film::{FilmDescription, crop_bounds};
 pub use render::{INTEGRATORS, IntegratorDescription, SamplerDescription, integrator_named, unlimited};
 
-use std::{path::Path, sync::Arc, time::Instant};
+use std::{
+    cell::RefCell,
+    collections::HashSet,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Instant,
+};
 use tyndall_film::PixelFilter;
 use tyndall_geometry::{BuildStats, Dispatch};
 use tyndall_pbrt::{Diagnostics, Error, Inventory, Parser, SourceMap};
@@ -47,7 +54,13 @@ pub struct LoadOptions {
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { range: LambdaRange::VISIBLE, strict: false, integrator: None, dispatch: Dispatch::Detect, set: Vec::new() }
+        Self {
+            range: LambdaRange::VISIBLE,
+            strict: false,
+            integrator: None,
+            dispatch: Dispatch::Detect,
+            set: Vec::new(),
+        }
     }
 }
 
@@ -104,27 +117,37 @@ fn load(mut parser: Parser, options: &LoadOptions) -> Result<LoadedScene, Error>
     let mut collected = collect::collect(&mut parser, &diagnostics)?;
     let mut inventory = parser.inventory().clone();
     let overrides = overrides::apply(&mut collected, &mut inventory, &options.set)?;
+    let files = RefCell::default();
     let ctx = context::Context {
         range: options.range,
         strict: options.strict,
         warnings: &diagnostics,
         resolver: parser.resolver(),
+        files: &files,
     };
     let mut loaded = build::build(&ctx, &collected, options, inventory)?;
     overrides::check(&overrides)?;
-    loaded.hash = hash(&parser);
+    loaded.hash = hash(&parser, &files.borrow())?;
     loaded.sources = parser.sources().clone();
     loaded.diagnostics = diagnostics.clone();
     loaded.seconds[0] = start.elapsed().as_secs_f64() - loaded.seconds[1];
     Ok(loaded)
 }
 
-/// Hash of the scene's text files in the order they were read.
-fn hash(parser: &Parser) -> String {
+/// Hash of the scene's text and of the meshes, images and spectra it names, in the order they were read.
+fn hash(parser: &Parser, files: &[PathBuf]) -> Result<String, Error> {
     let mut hasher = blake3::Hasher::new();
+    let mut add = |bytes: &[u8]| {
+        hasher.update(&(bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    };
     for file in parser.sources().files() {
-        hasher.update(&(file.bytes().len() as u64).to_le_bytes());
-        hasher.update(file.bytes());
+        add(file.bytes());
     }
-    hasher.finalize().to_hex().to_string()
+    let mut seen = HashSet::new();
+    for path in files.iter().filter(|path| seen.insert(*path)) {
+        let unreadable = |e| Error::in_file(ErrorKind::Io(e), path.display().to_string());
+        add(&std::fs::read(path).map_err(unreadable)?);
+    }
+    Ok(hasher.finalize().to_hex().to_string())
 }

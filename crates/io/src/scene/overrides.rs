@@ -19,7 +19,15 @@ const OPTIONS: [(&str, EntityKind, &str); 4] = [
 
 /// Parameters that are integers in pbrt-v4 and here: a whole number alone does not tell.
 const INTEGERS: [&str; 9] = [
-    "maxdepth", "pixelsamples", "xresolution", "yresolution", "seed", "nbuckets", "roulettedepth", "xsamples", "ysamples",
+    "maxdepth",
+    "pixelsamples",
+    "xresolution",
+    "yresolution",
+    "seed",
+    "nbuckets",
+    "roulettedepth",
+    "xsamples",
+    "ysamples",
 ];
 
 /// An override in force.
@@ -33,7 +41,11 @@ pub struct Applied {
 ///
 /// # Errors
 /// When a name is unknown, or a value has no form of its parameter.
-pub fn apply(collected: &mut Collected, inventory: &mut Inventory, set: &[String]) -> Result<Vec<Applied>, Error> {
+pub fn apply(
+    collected: &mut Collected,
+    inventory: &mut Inventory,
+    set: &[String],
+) -> Result<Vec<Applied>, Error> {
     let mut applied = Vec::new();
     for text in set {
         let origin = format!("--set {text}");
@@ -73,7 +85,8 @@ fn find<'c>(collected: &'c mut Collected, name: &str, origin: &str) -> Result<&'
     let names = names(collected);
     let media = collected.media.iter_mut().filter(|d| d.name.as_str() == name).map(|d| &mut d.params);
     let materials = collected.named_materials.get_mut(name).map(|d| &mut d.params);
-    let textures = collected.textures.iter_mut().filter(|t| t.defines.as_str() == name).map(|t| &mut t.declared.params);
+    let textures =
+        collected.textures.iter_mut().filter(|t| t.defines.as_str() == name).map(|t| &mut t.declared.params);
     media.chain(materials).chain(textures).next().ok_or_else(|| unknown(origin, name, &names))
 }
 
@@ -81,8 +94,12 @@ fn names(c: &Collected) -> Vec<String> {
     let media = c.media.iter().map(|d| d.name.as_str());
     let textures = c.textures.iter().map(|t| t.defines.as_str());
     let named = c.named_materials.keys().map(String::as_str);
-    let mut all: Vec<String> =
-        media.chain(textures).chain(named).chain(OPTIONS.map(|(name, _, _)| name)).map(str::to_owned).collect();
+    let mut all: Vec<String> = media
+        .chain(textures)
+        .chain(named)
+        .chain(OPTIONS.map(|(name, _, _)| name))
+        .map(str::to_owned)
+        .collect();
     all.sort();
     all
 }

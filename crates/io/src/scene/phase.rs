@@ -17,7 +17,8 @@ const CLASSES: &str =
 pub fn phase(ctx: &Context<'_>, params: &ParamSet) -> Result<PhaseFunction, Error> {
     let class = params.string("phase", "")?;
     let wrap = |e: tyndall_scatter::ScatterError| at(params, e);
-    let number = |name: &str, default: f32| Ok::<_, Error>(signed(params, name)?.unwrap_or(Curve::Constant(default)));
+    let number =
+        |name: &str, default: f32| Ok::<_, Error>(signed(params, name)?.unwrap_or(Curve::Constant(default)));
     Ok(match class.as_str() {
         "isotropic" => PhaseFunction::Isotropic,
         "" | "henyey-greenstein" => henyey_greenstein(number("g", 0.0)?).map_err(wrap)?,
@@ -41,7 +42,8 @@ pub fn phase(ctx: &Context<'_>, params: &ParamSet) -> Result<PhaseFunction, Erro
         }
         other => {
             let got = format!("\"{other}\"");
-            return Err(refuse(params, "phase", "must be a known phase function", got).hint(format!("one of {CLASSES}")));
+            return Err(refuse(params, "phase", "must be a known phase function", got)
+                .hint(format!("one of {CLASSES}")));
         }
     })
 }
@@ -66,6 +68,10 @@ fn signed(params: &ParamSet, name: &str) -> Result<Option<Curve>, Error> {
             let curve = Curve::linear(&narrow(lambda), &narrow(values), Outside::Hold);
             curve.map(Some).map_err(|e| params.error(format!("{name}: {e}")))
         }
-        Some(_) => Err(params.error_at(name, "must be a number or pairs of wavelength and value", "another spectrum")),
+        Some(_) => Err(params.error_at(
+            name,
+            "must be a number or pairs of wavelength and value",
+            "another spectrum",
+        )),
     }
 }

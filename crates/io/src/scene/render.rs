@@ -89,9 +89,21 @@ pub fn integrator_named(name: &str) -> Option<(Method, bool)> {
 pub const INTEGRATORS: &str = "volpath, analog, path (leaves media out), simplepath and simplevolpath";
 
 const KNOWN: [&str; 15] = [
-    "maxdepth", "regularize", "lightsampler", "equiangular", "lightsampling", "exacttransmittance", "survival",
-    "coneclipping", "roulettedepth", "roulettethreshold", "samplebsdf", "samplelights", "visualizestrategies",
-    "visualizeweights", "russianroulette",
+    "maxdepth",
+    "regularize",
+    "lightsampler",
+    "equiangular",
+    "lightsampling",
+    "exacttransmittance",
+    "survival",
+    "coneclipping",
+    "roulettedepth",
+    "roulettethreshold",
+    "samplebsdf",
+    "samplelights",
+    "visualizestrategies",
+    "visualizeweights",
+    "russianroulette",
 ];
 
 /// The integrator of the scene; pbrt's default is volpath.
@@ -107,7 +119,8 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
         return Err(p.error(format!("integrator \"{name}\" is not supported")).hint(hint));
     };
     if name.starts_with("simple") {
-        ctx.warnings.note(p.place(), format!("integrator \"{name}\" runs as volpath: the same mean with less noise"));
+        ctx.warnings
+            .note(p.place(), format!("integrator \"{name}\" runs as volpath: the same mean with less noise"));
     }
     for name in ["lightsampler", "samplebsdf", "samplelights"] {
         p.ignore(name, "lights are chosen by power, directions by both techniques");
@@ -125,7 +138,12 @@ fn settings(p: &ParamSet) -> Result<Settings, Error> {
         "off" => Equiangular::Off,
         "always" => Equiangular::Always,
         other => {
-            return Err(refuse(p, "equiangular", "must be \"auto\", \"off\" or \"always\"", format!("\"{other}\"")));
+            return Err(refuse(
+                p,
+                "equiangular",
+                "must be \"auto\", \"off\" or \"always\"",
+                format!("\"{other}\""),
+            ));
         }
     };
     let threshold = p.float("roulettethreshold", default.roulette_threshold)?;

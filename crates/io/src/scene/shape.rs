@@ -11,8 +11,26 @@ use tyndall_geometry::{BilinearMesh, Disk, Shape, Sphere, Transform, TriangleMes
 use tyndall_pbrt::{Error, ParamSet};
 
 const KNOWN: [&str; 20] = [
-    "P", "N", "S", "uv", "indices", "faceIndices", "filename", "radius", "zmin", "zmax", "phimax", "height",
-    "innerradius", "alpha", "displacement", "edgelength", "emissionfilename", "extrapolate", "interpolation", "levels",
+    "P",
+    "N",
+    "S",
+    "uv",
+    "indices",
+    "faceIndices",
+    "filename",
+    "radius",
+    "zmin",
+    "zmax",
+    "phimax",
+    "height",
+    "innerradius",
+    "alpha",
+    "displacement",
+    "edgelength",
+    "emissionfilename",
+    "extrapolate",
+    "interpolation",
+    "levels",
 ];
 
 /// The shapes of a directive: one, or for a PLY file one per kind of face.
@@ -32,7 +50,8 @@ pub fn shapes(ctx: &Context<'_>, record: &ShapeRecord) -> Result<Vec<Shape>, Err
         }
         "disk" => {
             let (height, radius) = (float("height", 0.0)?, float("radius", 1.0)?);
-            let disk = Disk::new(*to_world, height, radius, float("innerradius", 0.0)?, float("phimax", 360.0)?);
+            let disk =
+                Disk::new(*to_world, height, radius, float("innerradius", 0.0)?, float("phimax", 360.0)?);
             vec![Shape::Disk(disk.map_err(|e| at(p, e))?)]
         }
         other => {
@@ -83,7 +102,7 @@ fn corner_indices<const K: usize>(p: &ParamSet, vertices: usize) -> Result<Vec<[
         None if vertices == K => (0..K as i32).collect(),
         None => return Err(p.missing("integer", "indices")),
     };
-    if indices.len() % K != 0 {
+    if !indices.len().is_multiple_of(K) {
         return Err(refuse(p, "indices", &format!("must be a multiple of {K} vertices"), indices.len()));
     }
     for (i, index) in indices.iter().enumerate() {
@@ -126,7 +145,10 @@ fn ply(ctx: &Context<'_>, p: &ParamSet, to_world: &Transform) -> Result<Vec<Shap
     let mesh = read_ply(&path).map_err(|e| at(p, e))?;
     if mesh.fanned_faces + mesh.skipped_faces > 0 {
         let (fanned, skipped) = (mesh.fanned_faces, mesh.skipped_faces);
-        let message = format!("{}: {fanned} faces of more than 4 corners cut into fans, {skipped} of fewer than 3 left out", path.display());
+        let message = format!(
+            "{}: {fanned} faces of more than 4 corners cut into fans, {skipped} of fewer than 3 left out",
+            path.display()
+        );
         ctx.warnings.warn(p.place(), message);
     }
     let positions: Vec<Vec3> = mesh.positions.iter().map(|v| to_world.point(*v)).collect();

@@ -9,13 +9,7 @@ use super::{
     context::{Context, at, refuse},
 };
 use tyndall_pbrt::{Error, ParamSet, SpectrumValue};
-use tyndall_spectral::{
-    Curve, cie,
-    colour::ColourSpace,
-    named,
-    range::Outside,
-    upsample,
-};
+use tyndall_spectral::{Curve, cie, colour::ColourSpace, named, range::Outside, upsample};
 
 /// What a spectrum is for: decides how a colour becomes one, and its range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +32,12 @@ pub struct Light {
 }
 
 /// The spectrum parameter `name`, checked against its purpose; `None` if absent.
-pub fn curve(ctx: &Context<'_>, params: &ParamSet, name: &str, purpose: Purpose) -> Result<Option<Curve>, Error> {
+pub fn curve(
+    ctx: &Context<'_>,
+    params: &ParamSet,
+    name: &str,
+    purpose: Purpose,
+) -> Result<Option<Curve>, Error> {
     Ok(light(ctx, params, name, purpose)?.map(|l| l.curve))
 }
 
@@ -75,7 +74,9 @@ pub fn one(
     purpose: Purpose,
 ) -> Result<Light, Error> {
     let curve = match value {
-        SpectrumValue::Rgb { rgb, color_space } => return colour(params, name, *rgb, color_space.as_deref(), purpose),
+        SpectrumValue::Rgb { rgb, color_space } => {
+            return colour(params, name, *rgb, color_space.as_deref(), purpose);
+        }
         SpectrumValue::Blackbody(kelvin) => Curve::blackbody(*kelvin as f32).map_err(|e| at(params, e))?,
         SpectrumValue::Samples { lambda, values } => tabulated(params, name, lambda, values)?,
         SpectrumValue::Named(text) => match named::named_spectrum(text.as_str()) {
@@ -161,7 +162,8 @@ fn file(ctx: &Context<'_>, params: &ParamSet, name: &str, text: &tyndall_pbrt::T
             format!("{name}: {shown}: expected pairs of wavelength and value, got {} numbers", numbers.len());
         return Err(params.error(message));
     }
-    let (lambda, values): (Vec<f64>, Vec<f64>) = numbers.as_chunks::<2>().0.iter().map(|p| (p[0], p[1])).unzip();
+    let (lambda, values): (Vec<f64>, Vec<f64>) =
+        numbers.as_chunks::<2>().0.iter().map(|p| (p[0], p[1])).unzip();
     tabulated(params, name, &lambda, &values)
 }
 

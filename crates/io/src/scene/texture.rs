@@ -85,13 +85,23 @@ impl<'a> Textures<'a> {
         Ok(())
     }
 
-    fn record(&self, params: &ParamSet, parameter: &str, name: &str, float: bool) -> Result<&'a TextureRecord, Error> {
+    fn record(
+        &self,
+        params: &ParamSet,
+        parameter: &str,
+        name: &str,
+        float: bool,
+    ) -> Result<&'a TextureRecord, Error> {
         if let Some(record) = self.records.get(&(name.to_owned(), float)) {
             return Ok(record);
         }
         let kind = if float { "float" } else { "spectrum" };
         let candidates = self.records.keys().filter(|k| k.1 == float).map(|k| k.0.as_str());
-        let e = params.error_at(parameter, &format!("must be a {kind} texture of the scene"), &format!("\"{name}\""));
+        let e = params.error_at(
+            parameter,
+            &format!("must be a {kind} texture of the scene"),
+            &format!("\"{name}\""),
+        );
         Err(match tyndall_pbrt::did_you_mean(name, candidates) {
             Some(hint) => e.hint(hint),
             None => e,
@@ -99,7 +109,12 @@ impl<'a> Textures<'a> {
     }
 
     /// Runs `make` unless the texture is being made already.
-    fn guarded<T>(&self, params: &ParamSet, name: &str, make: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    fn guarded<T>(
+        &self,
+        params: &ParamSet,
+        name: &str,
+        make: impl FnOnce() -> Result<T, Error>,
+    ) -> Result<T, Error> {
         if self.open.borrow().iter().any(|n| n == name) {
             return Err(params.error(format!("texture \"{name}\" refers to itself")));
         }
@@ -189,7 +204,12 @@ impl<'a> Textures<'a> {
                 Lookup::Bilinear
             }
             other => {
-                return Err(refuse(p, "filter", "must be point, bilinear, trilinear or ewa", format!("\"{other}\"")));
+                return Err(refuse(
+                    p,
+                    "filter",
+                    "must be point, bilinear, trilinear or ewa",
+                    format!("\"{other}\""),
+                ));
             }
         };
         let wrap = match p.string("wrap", "repeat")?.as_str() {
@@ -226,7 +246,8 @@ impl<'a> Textures<'a> {
         let chosen = if encoding.is_empty() {
             None
         } else {
-            let unknown = || refuse(p, "encoding", "must be sRGB, linear or \"gamma g\"", format!("\"{encoding}\""));
+            let unknown =
+                || refuse(p, "encoding", "must be sRGB, linear or \"gamma g\"", format!("\"{encoding}\""));
             Some(Encoding::from_words(encoding).ok_or_else(unknown)?)
         };
         let pixels = read_encoded(&key.0, chosen).map_err(|e| at(p, e))?;
@@ -237,9 +258,33 @@ impl<'a> Textures<'a> {
 }
 
 const KNOWN: [&str; 27] = [
-    "value", "tex", "scale", "tex1", "tex2", "amount", "filename", "encoding", "filter", "wrap", "invert", "mapping",
-    "uscale", "vscale", "udelta", "vdelta", "v1", "v2", "maxanisotropy", "extrapolate", "interpolation", "dimension",
-    "inside", "outside", "octaves", "roughness", "variation",
+    "value",
+    "tex",
+    "scale",
+    "tex1",
+    "tex2",
+    "amount",
+    "filename",
+    "encoding",
+    "filter",
+    "wrap",
+    "invert",
+    "mapping",
+    "uscale",
+    "vscale",
+    "udelta",
+    "vdelta",
+    "v1",
+    "v2",
+    "maxanisotropy",
+    "extrapolate",
+    "interpolation",
+    "dimension",
+    "inside",
+    "outside",
+    "octaves",
+    "roughness",
+    "variation",
 ];
 
 fn unknown(p: &ParamSet, class: &str) -> Error {
