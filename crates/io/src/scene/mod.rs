@@ -33,7 +33,7 @@ use std::{
 };
 use tyndall_film::PixelFilter;
 use tyndall_geometry::{BuildStats, Dispatch};
-use tyndall_pbrt::{Diagnostics, Error, Inventory, Parser, SourceMap};
+use tyndall_pbrt::{Diagnostics, Error, ErrorKind, Inventory, Parser, SourceMap};
 use tyndall_spectral::LambdaRange;
 use tyndall_transport::Scene;
 
