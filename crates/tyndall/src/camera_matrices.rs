@@ -47,7 +47,8 @@ impl CameraMatrices {
     }
 }
 
-const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+const IDENTITY: Matrix =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 /// Camera space to the screen window, depth to 0 at the near and 1 at the far plane.
 fn perspective(tan_half: f64) -> Matrix {
@@ -84,7 +85,9 @@ mod tests {
             screen: [-2.0, 2.0, -1.0, 1.0],
             lens_radius: 0.0,
             focal_distance: 1.0,
-            to_world: Transform::look_at([1.0, 2.0, 3.0], [0.5, 0.0, -1.0], [0.1, 1.0, 0.0]).expect("regular").inverse(),
+            to_world: Transform::look_at([1.0, 2.0, 3.0], [0.5, 0.0, -1.0], [0.1, 1.0, 0.0])
+                .expect("regular")
+                .inverse(),
         }
     }
 
@@ -111,7 +114,8 @@ mod tests {
 
     #[test]
     fn numbers_return() {
-        let matrices = CameraMatrices::of(&Camera::Orthographic(Orthographic::new(projective()).expect("valid")));
+        let matrices =
+            CameraMatrices::of(&Camera::Orthographic(Orthographic::new(projective()).expect("valid")));
         let numbers: [f32; 32] = matrices.numbers().try_into().expect("two matrices");
         assert_eq!(CameraMatrices::from_numbers(&numbers), matrices);
     }

@@ -59,6 +59,7 @@ fn film_identity(path: &Path) -> Option<Vec<(String, String)>> {
 }
 
 fn same_run(r: &Record, p: &Provenance) -> bool {
-    let settings = (r.integrator == p.integrator) && (r.spectral == p.spectral) && r.wavelengths == p.wavelengths;
+    let settings =
+        (r.integrator == p.integrator) && (r.spectral == p.spectral) && r.wavelengths == p.wavelengths;
     r.scene_hash == p.scene_hash && r.seed == p.seed && settings && r.range_nm == p.range
 }

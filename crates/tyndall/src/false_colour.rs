@@ -58,9 +58,8 @@ mod tests {
     #[test]
     fn lightness_rises_evenly_and_colours_differ() {
         let space = ColourSpace::get(SpaceName::Srgb);
-        let labs: Vec<[f64; 3]> = (0..=20)
-            .map(|i| lab(space.xyz_from_rgb.apply(map(f64::from(i) / 20.0)), space.white))
-            .collect();
+        let labs: Vec<[f64; 3]> =
+            (0..=20).map(|i| lab(space.xyz_from_rgb.apply(map(f64::from(i) / 20.0)), space.white)).collect();
         for pair in labs.windows(2) {
             assert!((pair[1][0] - pair[0][0] - 4.25).abs() < 0.2, "{pair:?}");
         }

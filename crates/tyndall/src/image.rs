@@ -7,10 +7,11 @@ use std::{
     path::{Path, PathBuf},
 };
 use tyndall_engine::container;
-use tyndall_film::{Developed, Film, PixelBounds};
 use tyndall_files::image::{
-    MetaValue, Pixels, SpectralLayout, SpectralUnit, Window, band_edges_nm, read_image, spectral_channel_name,
+    Channel, MetaValue, Pixels, SpectralLayout, SpectralUnit, Window, band_edges_nm, read_image,
+    spectral_channel_name, spectral_channels,
 };
+use tyndall_film::{Developed, Film, PixelBounds};
 use tyndall_spectral::{ColourSpace, SpaceName, cie::CIE_Y_INTEGRAL};
 
 /// Names of our own attributes.
@@ -89,7 +90,9 @@ impl Image {
         {
             return space;
         }
-        let Some(MetaValue::Chromaticities(xy)) = self.values.meta.get("chromaticities") else { return SpaceName::Srgb };
+        let Some(MetaValue::Chromaticities(xy)) = self.values.meta.get("chromaticities") else {
+            return SpaceName::Srgb;
+        };
         let same = |s: &SpaceName| {
             let own = chromaticities(*s);
             own.iter().flatten().zip(xy.iter().flatten()).all(|(a, b)| (a - b).abs() < 2e-3)
@@ -124,6 +127,22 @@ impl Image {
         };
         Some(r.iter().zip(g).zip(b).map(dot).collect())
     }
+}
+
+/// The channels in the order people expect: R, G, B, bands by wavelength, layers. Files sort them by name.
+pub fn ordered(pixels: &Pixels) -> Vec<&Channel> {
+    let bands: Vec<&str> = spectral_channels(pixels).iter().map(|c| c.channel.name.as_str()).collect();
+    let rank = |c: &&Channel| {
+        let name = c.name.as_str();
+        let (layer, channel) = split_layer(name);
+        let layer = if layer == "S0" { "" } else { layer };
+        let colour = ["R", "G", "B"].iter().position(|n| *n == channel);
+        let band = bands.iter().position(|b| *b == name).map(|i| i + 3);
+        (layer.to_owned(), colour.or(band).unwrap_or(usize::MAX))
+    };
+    let mut channels: Vec<&Channel> = pixels.channels().iter().collect();
+    channels.sort_by_cached_key(rank);
+    channels
 }
 
 /// Whether a file starts as films do.
@@ -246,7 +265,11 @@ impl Planes<'_> {
         } else {
             SpectralUnit::Relative(self.provenance.units.clone())
         };
-        SpectralLayout { edges_nm: self.bands.iter().map(|&e| f64::from(e)).collect(), unit, samples_per_pixel: samples }
+        SpectralLayout {
+            edges_nm: self.bands.iter().map(|&e| f64::from(e)).collect(),
+            unit,
+            samples_per_pixel: samples,
+        }
     }
 }
 

@@ -9,9 +9,10 @@ const UNKNOWN: u64 = 64 << 30;
 
 /// Bytes that this process can still get: free memory of the machine, or what is left of its control group.
 pub fn available() -> u64 {
-    let group = [("memory.max", "memory.current"), ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")]
-        .iter()
-        .filter_map(|(limit, used)| Some(group_number(limit)?.saturating_sub(group_number(used)?)));
+    let group =
+        [("memory.max", "memory.current"), ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")]
+            .iter()
+            .filter_map(|(limit, used)| Some(group_number(limit)?.saturating_sub(group_number(used)?)));
     group.chain(machine()).min().unwrap_or(UNKNOWN)
 }
 
@@ -43,8 +44,20 @@ fn planes(spec: &FilmSpec) -> u128 {
 /// # Errors
 /// With the bytes needed and available.
 pub fn check(spec: &FilmSpec) -> Result<(), Error> {
-    let planes = u64::try_from(planes(spec)).unwrap_or(u64::MAX);
-    Ok(spec.check_size(available().saturating_sub(planes))?)
+    let (needed, free) = (needed(spec), available());
+    if needed <= u128::from(free) {
+        return Ok(());
+    }
+    let (width, height, channels) = (spec.bounds.width(), spec.bounds.height(), spec.channels());
+    let gib = |bytes: f64| bytes / (1u64 << 30) as f64;
+    Err(Error::options(
+        format!(
+            "a film of {width} x {height} pixels with {channels} channels needs {:.1} GiB of memory, and {:.1} GiB are free",
+            gib(needed as f64),
+            gib(free as f64)
+        ),
+        Some("lower the resolution, crop, or use fewer bands and layers".into()),
+    ))
 }
 
 #[cfg(test)]
@@ -65,6 +78,6 @@ mod tests {
         let huge = FilmSpec::xyz([1 << 20, 1 << 20], ErrorMode::Conservative);
         assert!(needed(&huge) > 1 << 46);
         let text = check(&huge).expect_err("refused").to_string();
-        assert!(text.contains("1048576 x 1048576") && text.contains("hint"), "{text}");
+        assert!(text.contains("1048576 x 1048576") && text.contains("GiB are free"), "{text}");
     }
 }

@@ -65,7 +65,9 @@ pub fn load(source: Source<'_>, options: &Options) -> Result<LoadedScene, Error>
         set: options.set.clone(),
     };
     Ok(match source {
-        Source::BuiltIn => load_text(&format!("{BUILT_IN_NAME}.pbrt (built in)"), BUILT_IN, Path::new(""), &load)?,
+        Source::BuiltIn => {
+            load_text(&format!("{BUILT_IN_NAME}.pbrt (built in)"), BUILT_IN, Path::new(""), &load)?
+        }
         Source::File(path) => load_file(path, &load)?,
         Source::Text(name, text, dir) => load_text(name, text, dir, &load)?,
     })
@@ -90,7 +92,11 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
     let method = loaded.integrator.method;
     check_method(method, &loaded.scene)?;
     let lanes = lanes(method, options)?;
-    let layers = Layers { orders: options.orders.clone(), aovs: options.aovs.clone(), flat: flat(&channels, options.range) };
+    let layers = Layers {
+        orders: options.orders.clone(),
+        aovs: options.aovs.clone(),
+        flat: flat(&channels, options.range),
+    };
     let seed = options.seed.unwrap_or(loaded.sampler.seed);
     let spec = Arc::new(film_spec(&loaded, options, &channels, &layers, seed));
     let spp = options.spp.unwrap_or(loaded.sampler.spp);
@@ -134,7 +140,10 @@ fn reframe(loaded: &mut LoadedScene, options: &Options) -> Result<(), Error> {
         loaded.film.bounds = crop_bounds(crop, loaded.film.resolution);
         if loaded.film.bounds.area() == 0 {
             return Err(Error::options(
-                format!("--crop: expected a window that holds a pixel, got {crop:?} of {:?}", loaded.film.resolution),
+                format!(
+                    "--crop: expected a window that holds a pixel, got {crop:?} of {:?}",
+                    loaded.film.resolution
+                ),
                 Some("x0,x1,y0,y1 are fractions of the picture from its upper left corner".into()),
             ));
         }

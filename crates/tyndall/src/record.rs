@@ -108,7 +108,11 @@ impl Record {
             resolution: film.spec().resolution,
             spp: film.samples() as f64 / area,
             seconds: c.seconds,
-            samples_per_second: if c.seconds.render > 0.0 { c.samples as f64 / c.seconds.render } else { 0.0 },
+            samples_per_second: if c.seconds.render > 0.0 {
+                c.samples as f64 / c.seconds.render
+            } else {
+                0.0
+            },
             threads: c.threads,
             error: ErrorRecord::of(summary),
             non_finite: film.diagnostics().non_finite,

@@ -31,7 +31,8 @@ pub fn render(plan: &Plan, run: &RunOptions, sink: &mut dyn Sink) -> Result<Outc
     memory::check(&plan.job.film)?;
     let backend = run.backend();
     let checkpoints = run.checkpoints.as_ref();
-    let engine = Run { job: &plan.job, pass: &plan.pass, backend: &backend, cancel: &run.cancel, checkpoints };
+    let engine =
+        Run { job: &plan.job, pass: &plan.pass, backend: &backend, cancel: &run.cancel, checkpoints };
     let Some(checkpoints) = checkpoints.filter(|_| run.resume) else { return Ok(engine.start(sink)?) };
     let resumed = checkpoints.load(&plan.job).map_err(nothing_to_resume)?;
     resumed.notes.iter().for_each(|note| sink.warning(note));
@@ -40,10 +41,12 @@ pub fn render(plan: &Plan, run: &RunOptions, sink: &mut dyn Sink) -> Result<Outc
 
 fn nothing_to_resume(e: EngineError) -> Error {
     match e {
-        EngineError::Io { path, source, .. } if source.kind() == std::io::ErrorKind::NotFound => Error::options(
-            format!("{}: there is no checkpoint to resume from", path.display()),
-            Some("leave out --resume, or name the checkpoint by --checkpoint FILE".into()),
-        ),
+        EngineError::Io { path, source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+            Error::options(
+                format!("{}: there is no checkpoint to resume from", path.display()),
+                Some("leave out --resume, or name the checkpoint by --checkpoint FILE".into()),
+            )
+        }
         other => other.into(),
     }
 }

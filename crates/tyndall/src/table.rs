@@ -1,6 +1,10 @@
 //! An image as a table (CSV): one row a pixel, units in the header.
 
-use crate::{Error, Image, image::attribute, units};
+use crate::{
+    Error, Image,
+    image::{attribute, ordered},
+    units,
+};
 use std::{
     fs::File,
     io::{self, BufRead, BufReader, Write},
@@ -8,7 +12,7 @@ use std::{
 };
 use tyndall_files::{
     atomic::write_atomic,
-    image::{Channel, MetaValue},
+    image::{Channel, MetaValue, Window},
 };
 
 const JOB_LINE: &str = "# job: ";
@@ -24,25 +28,38 @@ pub fn write(path: &Path, image: &Image, rows: &[(u32, u32)]) -> Result<(), Erro
         (0..window.width as i64).contains(&x) && (0..window.height as i64).contains(&y)
     };
     if let Some((x, y)) = rows.iter().find(|p| !inside(p)) {
-        let what = format!("pixel {x},{y} lies outside the image's window of {} x {}", window.width, window.height);
+        let what =
+            format!("pixel {x},{y} lies outside the image's window of {} x {}", window.width, window.height);
         return Err(Error::options(what, Some("pixels count from 0 at the upper left".into())));
     }
+    let columns = columns(image);
     write_atomic(path, |out| {
-        header(image, out)?;
+        header(image, &columns, out)?;
         if rows.is_empty() {
-            (0..window.area()).try_for_each(|p| row(image, p, out))
+            (0..window.area()).try_for_each(|p| row(window, &columns, p, out))
         } else {
             let index = |(x, y): (u32, u32)| {
                 (i64::from(y) - i64::from(window.y0)) as usize * window.width
                     + (i64::from(x) - i64::from(window.x0)) as usize
             };
-            rows.iter().try_for_each(|&pixel| row(image, index(pixel), out))
+            rows.iter().try_for_each(|&pixel| row(window, &columns, index(pixel), out))
         }
     })?;
     Ok(())
 }
 
-fn header(image: &Image, out: &mut impl Write) -> io::Result<()> {
+/// A channel and its standard errors.
+struct Column<'i> {
+    channel: &'i Channel,
+    errors: Option<&'i [f32]>,
+}
+
+fn columns(image: &Image) -> Vec<Column<'_>> {
+    let errors = |c: &Channel| image.errors.as_ref()?.channel(&c.name);
+    ordered(&image.values).into_iter().map(|channel| Column { channel, errors: errors(channel) }).collect()
+}
+
+fn header(image: &Image, columns: &[Column<'_>], out: &mut impl Write) -> io::Result<()> {
     let text = |name: &str| match image.values.meta.get(name) {
         Some(MetaValue::Text(t)) => Some(t.as_str()),
         _ => None,
@@ -54,21 +71,24 @@ fn header(image: &Image, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{JOB_LINE}{job}")?;
     }
     writeln!(out, "# unit of spectral radiance: {}", text(attribute::UNITS).unwrap_or("unknown"))?;
-    writeln!(out, "# pixels count from 0 at the upper left; se: standard error of the value before it, in its unit")?;
+    writeln!(
+        out,
+        "# pixels count from 0 at the upper left; se: standard error of the value before it, in its unit"
+    )?;
     let absolute = image.is_absolute();
     write!(out, "x,y")?;
-    for channel in image.values.channels() {
-        write!(out, ",{} [{}]", quoted(&channel.name), unit(&channel.name, absolute))?;
-        if error_of(image, channel).is_some() {
-            write!(out, ",{} se", quoted(&channel.name))?;
+    for Column { channel, errors } in columns {
+        write!(out, ",{}", cell(&format!("{} [{}]", channel.name, unit(&channel.name, absolute))))?;
+        if errors.is_some() {
+            write!(out, ",{}", cell(&format!("{} se", channel.name)))?;
         }
     }
     writeln!(out)
 }
 
-/// Decimal commas of spectral names would split a cell.
-fn quoted(name: &str) -> String {
-    name.replace(',', ".")
+/// Decimal commas of spectral names would split a cell without quotes (RFC 4180).
+fn cell(text: &str) -> String {
+    if text.contains(',') { format!("\"{text}\"") } else { text.to_owned() }
 }
 
 /// The unit of a channel.
@@ -83,17 +103,12 @@ fn unit(name: &str, absolute: bool) -> &'static str {
     }
 }
 
-fn error_of<'i>(image: &'i Image, channel: &Channel) -> Option<&'i [f32]> {
-    image.errors.as_ref()?.channel(&channel.name)
-}
-
-fn row(image: &Image, p: usize, out: &mut impl Write) -> io::Result<()> {
-    let window = image.values.window();
+fn row(window: Window, columns: &[Column<'_>], p: usize, out: &mut impl Write) -> io::Result<()> {
     let (x, y) = (window.x0 as i64 + (p % window.width) as i64, window.y0 as i64 + (p / window.width) as i64);
     write!(out, "{x},{y}")?;
-    for channel in image.values.channels() {
+    for Column { channel, errors } in columns {
         write!(out, ",{}", channel.data[p])?;
-        if let Some(se) = error_of(image, channel) {
+        if let Some(se) = errors {
             write!(out, ",{}", se[p])?;
         }
     }

@@ -4,10 +4,7 @@ use std::path::Path;
 
 use tyndall::files::image::{ExrOptions, Pixels, write_exr, write_png};
 use tyndall::image::chromaticities;
-use tyndall::spectral::{
-    Outside, SpaceName, cie, colour, illuminant,
-    illuminant::daylight_chromaticity,
-};
+use tyndall::spectral::{Outside, SpaceName, cie, colour, illuminant, illuminant::daylight_chromaticity};
 use tyndall::{Error, Image, Look, Picture, picture, table};
 
 use super::render::write_image;
@@ -33,7 +30,9 @@ pub fn run(args: &DevelopArgs) -> Result<(), Failure> {
         match file.kind {
             FileKind::Csv => table::write(&file.path, &image, &rows)?,
             FileKind::Exr if is_plain(args) => write_image(&image, &file.path, FileKind::Exr)?,
-            FileKind::Exr => developed_exr(&file.path, &picture(&image, &exact(&look), space(args))?, space(args))?,
+            FileKind::Exr => {
+                developed_exr(&file.path, &picture(&image, &exact(&look), space(args))?, space(args))?
+            }
             _ => png(&file.path, &picture(&image, &look, space(args))?)?,
         }
     }
@@ -42,7 +41,10 @@ pub fn run(args: &DevelopArgs) -> Result<(), Failure> {
 
 fn refuse_to_replace(path: &Path, args: &DevelopArgs) -> Result<(), Failure> {
     if path == args.input {
-        return Err(Failure::input(format!("{}: is also the input", path.display()), Some("write to another name")));
+        return Err(Failure::input(
+            format!("{}: is also the input", path.display()),
+            Some("write to another name"),
+        ));
     }
     if path.is_file() && !args.force {
         return Err(Failure::input(format!("{}: exists", path.display()), Some("--force replaces it")));
@@ -53,7 +55,8 @@ fn refuse_to_replace(path: &Path, args: &DevelopArgs) -> Result<(), Failure> {
 /// Nothing about the look is asked for: an EXR keeps all that the image has.
 fn is_plain(args: &DevelopArgs) -> bool {
     let look = &args.look;
-    let same = look.exposure.is_none() && look.white.is_none() && look.band.is_none() && look.false_colour.is_none();
+    let same =
+        look.exposure.is_none() && look.white.is_none() && look.band.is_none() && look.false_colour.is_none();
     same && look.colour_space == DevelopSpace::Srgb
 }
 
@@ -84,7 +87,9 @@ fn white(white: &WhitePoint) -> Result<[f64; 2], Error> {
     Ok(match white {
         WhitePoint::Chromaticity(x, y) => [*x, *y],
         WhitePoint::Illuminant("E") => [1.0 / 3.0; 2],
-        WhitePoint::Illuminant(name) => colour::chromaticity(cie::xyz(&illuminant::illuminant(name, Outside::Hold)?)),
+        WhitePoint::Illuminant(name) => {
+            colour::chromaticity(cie::xyz(&illuminant::illuminant(name, Outside::Hold)?))
+        }
         // daylight from 4000 K on, a black body below
         WhitePoint::Temperature(kelvin) if *kelvin >= 4000.0 => daylight_chromaticity(*kelvin)?,
         WhitePoint::Temperature(kelvin) => {

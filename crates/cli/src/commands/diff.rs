@@ -38,13 +38,25 @@ fn table(d: &Diff) -> String {
 
 fn write_table(d: &Diff, out: &mut String) -> std::fmt::Result {
     let width = d.channels.iter().map(|c| c.name.len()).max().unwrap_or(0).max(7);
-    writeln!(out, "{:width$} {:>13} {:>13} {:>11} {:>11} {:>11} {:>9}", "channel", "mean A", "mean B", "MSE", "RMSE", "relMSE", "bias %")?;
+    writeln!(
+        out,
+        "{:width$} {:>13} {:>13} {:>11} {:>11} {:>11} {:>9}",
+        "channel", "mean A", "mean B", "MSE", "RMSE", "relMSE", "bias %"
+    )?;
     for c in &d.channels {
         let bias = c.bias.map_or_else(|| "-".into(), |b| format!("{:.3}", 100.0 * b));
-        writeln!(out, "{:width$} {:>13.6e} {:>13.6e} {:>11.4e} {:>11.4e} {:>11.4e} {bias:>9}", c.name, c.mean_a, c.mean_b, c.mse, c.rmse, c.rel_mse)?;
+        writeln!(
+            out,
+            "{:width$} {:>13.6e} {:>13.6e} {:>11.4e} {:>11.4e} {:>11.4e} {bias:>9}",
+            c.name, c.mean_a, c.mean_b, c.mse, c.rmse, c.rel_mse
+        )?;
     }
     if d.channels.iter().any(|c| c.tests.is_some()) {
-        writeln!(out, "\n{:width$} {:>9} {:>9} {:>7} {:>9} {:>9} {:>11} {:>7}", "channel", "t", "p", "blocks", "worst t", "p", "at", "rms t")?;
+        writeln!(
+            out,
+            "\n{:width$} {:>9} {:>9} {:>7} {:>9} {:>9} {:>11} {:>7}",
+            "channel", "t", "p", "blocks", "worst t", "p", "at", "rms t"
+        )?;
         d.channels.iter().try_for_each(|c| write_tests(c, width, out))?;
     }
     for c in d.channels.iter().filter(|c| c.non_finite > 0) {
@@ -78,6 +90,8 @@ fn verdict(d: &Diff) -> String {
         Verdict::Identical => "identical, bit for bit".into(),
         Verdict::Agree => format!("agree {level}{whose}"),
         Verdict::Differ => format!("differ {level}{whose} (channels marked *)"),
-        Verdict::Unknown => "no verdict: no standard errors are known (NAME.error.exr beside an image)".into(),
+        Verdict::Unknown => {
+            "no verdict: no standard errors are known (NAME.error.exr beside an image)".into()
+        }
     }
 }

@@ -78,9 +78,16 @@ fn write_media(i: &Info, out: &mut String) -> std::fmt::Result {
 }
 
 fn write_medium(m: &MediumInfo, out: &mut String) -> std::fmt::Result {
-    let span = |[low, high]: [f32; 2]| if low == high { format!("{low}") } else { format!("{low} to {high}") };
+    let span =
+        |[low, high]: [f32; 2]| if low == high { format!("{low}") } else { format!("{low} to {high}") };
     writeln!(out, "  \"{}\" ({}){}", m.name, m.class, if m.emits { ", emits" } else { "" })?;
-    writeln!(out, "    sigma_a  {} 1/m, sigma_s {} 1/m, sigma_t {} 1/m", span(m.sigma_a), span(m.sigma_s), span(m.sigma_t))?;
+    writeln!(
+        out,
+        "    sigma_a  {} 1/m, sigma_s {} 1/m, sigma_t {} 1/m",
+        span(m.sigma_a),
+        span(m.sigma_s),
+        span(m.sigma_t)
+    )?;
     writeln!(out, "    albedo {}, mean cosine {}", span(m.albedo), span(m.mean_cosine))?;
     writeln!(out, "    optical depth {} along the diagonal of the scene", span(m.optical_depth))
 }
@@ -97,14 +104,27 @@ fn write_lights(i: &Info, out: &mut String) -> std::fmt::Result {
 
 fn write_boundaries(i: &Info, out: &mut String) -> std::fmt::Result {
     let b = &i.boundaries;
-    writeln!(out, "\nboundaries {} of {} crossings on {} paths contradict the medium of the path", b.contradictions, b.crossings, b.paths)?;
+    writeln!(
+        out,
+        "\nboundaries {} of {} crossings on {} paths contradict the medium of the path",
+        b.contradictions, b.crossings, b.paths
+    )?;
     let name = |n: &Option<String>| n.as_ref().map_or_else(|| "vacuum".to_owned(), |n| format!("\"{n}\""));
     for e in &b.examples {
         let [x, y, z] = e.p;
-        writeln!(out, "  shape {} at ({x}, {y}, {z}): the path is in {}, the surface expects {}", e.shape, name(&e.tracked), name(&e.expected))?;
+        writeln!(
+            out,
+            "  shape {} at ({x}, {y}, {z}): the path is in {}, the surface expects {}",
+            e.shape,
+            name(&e.tracked),
+            name(&e.expected)
+        )?;
     }
     if b.contradictions > 0 {
-        writeln!(out, "  hint: look for holes, reversed normals, overlapping volumes, and the camera's MediumInterface")?;
+        writeln!(
+            out,
+            "  hint: look for holes, reversed normals, overlapping volumes, and the camera's MediumInterface"
+        )?;
     }
     Ok(())
 }

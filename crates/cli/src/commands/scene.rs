@@ -42,7 +42,12 @@ fn lambda_range(Range(range): Range) -> Result<LambdaRange, Failure> {
 ///
 /// # Errors
 /// With `strict`, when there is a warning.
-pub fn tell(diagnostics: &[Diagnostic], strict: bool, log: &LogArgs, console: &Console) -> Result<(), Failure> {
+pub fn tell(
+    diagnostics: &[Diagnostic],
+    strict: bool,
+    log: &LogArgs,
+    console: &Console,
+) -> Result<(), Failure> {
     let mut told = HashSet::new();
     for diagnostic in diagnostics {
         if told.insert(diagnostic.to_string()) {

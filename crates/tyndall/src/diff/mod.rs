@@ -13,7 +13,7 @@
 mod channel;
 mod tests_of;
 
-use crate::{Error, Image};
+use crate::{Error, Image, image::ordered};
 use channel::compare;
 use serde::Serialize;
 use tests_of::holm;
@@ -119,13 +119,14 @@ pub struct ChannelTests {
 pub fn diff(a: &Image, b: &Image, options: &DiffOptions) -> Result<Diff, Error> {
     let size = [a.values.width(), a.values.height()];
     if a.values.window() != b.values.window() {
-        let show = |w: tyndall_files::image::Window| format!("{} x {} from {},{}", w.width, w.height, w.x0, w.y0);
+        let show =
+            |w: tyndall_files::image::Window| format!("{} x {} from {},{}", w.width, w.height, w.x0, w.y0);
         return Err(Error::options(
             format!("the images have windows {} and {}", show(a.values.window()), show(b.values.window())),
             Some("render both at the same --resolution and --crop".into()),
         ));
     }
-    let names = |i: &Image| i.values.channels().iter().map(|c| c.name.clone()).collect::<Vec<_>>();
+    let names = |i: &Image| ordered(&i.values).into_iter().map(|c| c.name.clone()).collect::<Vec<_>>();
     let (names_a, names_b) = (names(a), names(b));
     let common: Vec<&String> = names_a.iter().filter(|n| names_b.contains(n)).collect();
     if common.is_empty() {
@@ -134,7 +135,10 @@ pub fn diff(a: &Image, b: &Image, options: &DiffOptions) -> Result<Diff, Error> 
             Some("compare images of the same kind, such as R, G, B with R, G, B".into()),
         ));
     }
-    let single = names_a.iter().filter(|n| !names_b.contains(n)).chain(names_b.iter().filter(|n| !names_a.contains(n)));
+    let single = names_a
+        .iter()
+        .filter(|n| !names_b.contains(n))
+        .chain(names_b.iter().filter(|n| !names_a.contains(n)));
     let left_out = single.cloned().collect();
     let mut channels: Vec<ChannelDiff> = common.iter().map(|name| compare(name, a, b, options)).collect();
     holm(&mut channels, options.alpha);
@@ -145,7 +149,8 @@ pub fn diff(a: &Image, b: &Image, options: &DiffOptions) -> Result<Diff, Error> 
 
 fn verdict(channels: &[ChannelDiff], common: &[&String], a: &Image, b: &Image, scale: f64) -> Verdict {
     let same = |name: &&String| {
-        let bits = |i: &Image| i.values.channel(name).map(|c| c.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
+        let bits =
+            |i: &Image| i.values.channel(name).map(|c| c.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
         bits(a) == bits(b)
     };
     if scale == 1.0 && common.iter().all(same) {

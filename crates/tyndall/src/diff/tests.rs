@@ -40,7 +40,8 @@ fn equal_truths_agree_at_the_stated_rate() {
     let runs = 200;
     let differ = (0..runs)
         .filter(|&seed| {
-            let d = diff(&noisy(2 * seed, 8, |_| 1.0), &noisy(2 * seed + 1, 8, |_| 1.0), &options).expect("comparable");
+            let d = diff(&noisy(2 * seed, 8, |_| 1.0), &noisy(2 * seed + 1, 8, |_| 1.0), &options)
+                .expect("comparable");
             d.verdict == Verdict::Differ
         })
         .count();
@@ -69,7 +70,8 @@ fn measures_by_hand() {
     assert_eq!((c.mse, c.rmse, c.rel_mse, c.bias), (0.25, 0.5, 0.25, Some(0.5)));
     assert_eq!(d.verdict, Verdict::Unknown);
     assert_eq!(diff(&a, &a, &DiffOptions::default()).expect("comparable").verdict, Verdict::Identical);
-    let scaled = diff(&a, &b, &DiffOptions { scale: 2.0 / 3.0, ..DiffOptions::default() }).expect("comparable");
+    let scaled =
+        diff(&a, &b, &DiffOptions { scale: 2.0 / 3.0, ..DiffOptions::default() }).expect("comparable");
     assert!(scaled.channels[0].mse < 1e-12);
 }
 
@@ -84,5 +86,7 @@ fn what_cannot_be_compared_is_refused() {
     let mut other = Pixels::new(SIDE, SIDE);
     other.push("Z", vec![0.0; SIDE * SIDE]).expect("the right size");
     let other = Image { values: other, errors: None };
-    assert!(diff(&a, &other, &DiffOptions::default()).expect_err("channels").to_string().contains("no channel"));
+    assert!(
+        diff(&a, &other, &DiffOptions::default()).expect_err("channels").to_string().contains("no channel")
+    );
 }

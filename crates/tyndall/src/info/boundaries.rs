@@ -8,10 +8,7 @@ use serde::Serialize;
 use tyndall_base::{rng::Pcg32, vec::vec2, warp};
 use tyndall_geometry::{Frame, Ray};
 use tyndall_transport::{
-    Interaction, MediumId, Scene,
-    camera::CameraSample,
-    material::Material,
-    scene::Boundary,
+    Interaction, MediumId, Scene, camera::CameraSample, material::Material, scene::Boundary,
 };
 
 /// Paths that look for contradictions.

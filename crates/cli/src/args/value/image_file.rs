@@ -19,12 +19,8 @@ pub enum FileKind {
 }
 
 /// Endings and what they mean.
-const ENDINGS: [(&str, FileKind); 4] = [
-    ("exr", FileKind::Exr),
-    ("png", FileKind::Png),
-    ("csv", FileKind::Csv),
-    ("film", FileKind::Film),
-];
+const ENDINGS: [(&str, FileKind); 4] =
+    [("exr", FileKind::Exr), ("png", FileKind::Png), ("csv", FileKind::Csv), ("film", FileKind::Film)];
 
 impl FileKind {
     /// Whether it holds rows of numbers.

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use miette::miette;
 use tyndall::engine::{Cancel, Checkpoints, End, Outcome};
+use tyndall::files::FileError;
 use tyndall::image::error_path;
 use tyndall::{Plan, Provenance, RunOptions, existing, memory, plan};
 
@@ -59,7 +60,8 @@ impl<'a> Job<'a> {
         memory::check(&plan.job.film)?;
         let provenance = Provenance::of(&plan)?;
         let names = args.names();
-        let named = |path: &PathBuf| ImageFile::parse(&path.to_string_lossy()).map_err(|e| Failure::input(e, None));
+        let named =
+            |path: &PathBuf| ImageFile::parse(&path.to_string_lossy()).map_err(|e| Failure::input(e, None));
         let files = names.images.iter().map(named).collect::<Result<_, _>>()?;
         Ok(Self { args, plan, provenance, names, files })
     }
@@ -171,7 +173,11 @@ fn report_bad_samples(outcome: &Outcome) {
         tracing::warn!("{n} samples that were not finite and {m} beyond all range were dropped{replay}");
     }
     if d.clamped > 0 {
-        tracing::warn!("the firefly clamp scaled {} samples down and removed a luminance of {:e}", d.clamped, d.clamp_removed());
+        tracing::warn!(
+            "the firefly clamp scaled {} samples down and removed a luminance of {:e}",
+            d.clamped,
+            d.clamp_removed()
+        );
     }
     if d.overflows > 0 {
         tracing::warn!("{} sums of squares overflowed: errors of those pixels mean nothing", d.overflows);
@@ -181,17 +187,18 @@ fn report_bad_samples(outcome: &Outcome) {
 /// Tries to write beside a result.
 fn probe(path: &Path) -> Result<(), Failure> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    // a device or pipe takes whatever comes
     if path.exists() && !path.is_file() {
         return Ok(());
     }
-    match tempfile::Builder::new().prefix(".tyndall-probe").tempfile_in(folder) {
-        Ok(_) => Ok(()),
-        Err(e) => Err(Failure::of(tyndall::files::FileError::io(path, "write", without_path(e)).into())),
+    let probe = folder.join(format!(".tyndall-probe-{}", std::process::id()));
+    let made = std::fs::OpenOptions::new().write(true).create_new(true).open(&probe);
+    match made {
+        Ok(_) => {
+            // what remains of it is an empty file with a telling name
+            let _ = std::fs::remove_file(&probe);
+            Ok(())
+        }
+        Err(e) => Err(Failure::of(FileError::io(path, "write", e).into())),
     }
-}
-
-/// `tempfile` adds a random name to the system's reason.
-fn without_path(e: std::io::Error) -> std::io::Error {
-    let code = e.get_ref().and_then(|inner| inner.source()?.downcast_ref::<std::io::Error>()?.raw_os_error());
-    code.map_or(e, std::io::Error::from_raw_os_error)
 }

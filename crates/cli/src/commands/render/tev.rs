@@ -26,7 +26,13 @@ impl Display {
         let opened = connect(address).and_then(|mut client| {
             let [width, height] = film.resolution;
             let image_name = name.as_str();
-            client.send(PacketCreateImage { image_name, grab_focus: false, width, height, channel_names: &CHANNELS })?;
+            client.send(PacketCreateImage {
+                image_name,
+                grab_focus: false,
+                width,
+                height,
+                channel_names: &CHANNELS,
+            })?;
             Ok(client)
         });
         match opened {

@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 use tyndall::engine::{Outcome, Progress as EngineProgress, Sink};
 use tyndall::film::Film;
 
+use super::Job;
 use super::tev::Display;
 use super::write::Writer;
-use super::Job;
 use crate::args::LogArgs;
 use crate::log::Console;
 use crate::progress::{Progress, Status};
@@ -45,15 +45,15 @@ impl<'w> Watcher<'w> {
 
     /// Shows the end.
     pub fn finish(&mut self, outcome: Option<&Outcome>) {
-        let Some(progress) = self.progress.take() else { return };
-        if let Some(outcome) = outcome {
-            let area = outcome.state.film.spec().bounds.area().max(1) as f64;
-            self.status.elapsed = Duration::from_millis(outcome.state.position.millis);
-            self.status.spp = outcome.state.film.samples() as f64 / area;
-            self.status.left = None;
-            if outcome.state.position.is_finished() {
-                self.status.done = 1.0;
-            }
+        // after an error there is no end to show
+        let (Some(progress), Some(outcome)) = (self.progress.take(), outcome) else { return };
+        let state = &outcome.state;
+        let area = state.film.spec().bounds.area().max(1) as f64;
+        self.status.elapsed = Duration::from_millis(state.position.millis);
+        self.status.spp = state.film.samples() as f64 / area;
+        self.status.left = None;
+        if state.position.is_finished() {
+            self.status.done = 1.0;
         }
         progress.finish(&self.status);
     }

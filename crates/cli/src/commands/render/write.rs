@@ -5,9 +5,9 @@ use std::path::Path;
 use tyndall::engine::{Outcome, shard};
 use tyndall::files::image::{ExrOptions, write_exr, write_png};
 use tyndall::film::Film;
+use tyndall::image::error_path;
 use tyndall::record::{Circumstances, Seconds};
 use tyndall::spectral::SpaceName;
-use tyndall::image::error_path;
 use tyndall::{Error, Image, Look, Record, RunOptions, picture, table};
 
 use super::Job;
@@ -94,7 +94,11 @@ pub fn write_image(image: &Image, path: &Path, kind: FileKind) -> Result<(), Err
                 tracing::debug!("{}: exposure {} stops", path.display(), picture.exposure);
             }
             if report.non_finite > 0 {
-                tracing::warn!("{}: {} pixels are not finite, shown in magenta", path.display(), report.non_finite);
+                tracing::warn!(
+                    "{}: {} pixels are not finite, shown in magenta",
+                    path.display(),
+                    report.non_finite
+                );
             }
         }
         FileKind::Csv => table::write(path, image, &[])?,
@@ -110,7 +114,11 @@ pub fn command_line() -> String {
 
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,%+@".contains(c);
-    if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
 }
 
 #[cfg(test)]
