@@ -2,8 +2,9 @@
 
 use crate::{
     equiangular::Segment,
+    medium::Inside,
     settings::Settings,
-    shadow::{End, shadow},
+    shadow::{End, Place, shadow},
     weight::{PathWeight, divide},
 };
 use tyndall_base::Vec3;
@@ -28,7 +29,7 @@ impl Rival {
 }
 
 /// A vertex that scatters towards lights.
-pub struct Scatterer<S, F> {
+pub struct Scatterer<'a, 's, S, F, const N: usize> {
     /// The point \[m\], from which densities are measured.
     pub p: Vec3,
     /// Where a shadow ray along a direction starts and in which medium.
@@ -37,6 +38,8 @@ pub struct Scatterer<S, F> {
     pub eval: F,
     /// Equiangular technique of a medium vertex.
     pub rival: Option<Rival>,
+    /// The medium that the path is in.
+    pub known: Place<'a, 's, N>,
 }
 
 /// One light sample at `vertex`: light per lane.
@@ -44,7 +47,7 @@ pub struct Scatterer<S, F> {
 pub fn sample<const N: usize, S, F>(
     scene: &Scene,
     settings: &Settings,
-    vertex: &Scatterer<S, F>,
+    vertex: &Scatterer<'_, '_, S, F, N>,
     weight: &PathWeight<N>,
     w: &Wavelengths<N>,
     sampler: &mut PathSampler,
@@ -63,8 +66,17 @@ where
         return Spectrum::ZERO;
     }
     let (o, medium) = (vertex.spawn)(sample.wi);
+    let fresh;
+    let inside = if medium == vertex.known.medium {
+        vertex.known.inside
+    } else {
+        fresh = Inside::of(scene, medium, w);
+        fresh.as_ref()
+    };
     let end = sample.target.map_or(End::Infinity(sample.wi), End::At);
-    let Some(s) = shadow(scene, settings, o, medium, end, w, sampler) else { return Spectrum::ZERO };
+    let Some(s) = shadow(scene, settings, o, Place { medium, inside }, end, w, sampler) else {
+        return Spectrum::ZERO;
+    };
     // densities of the techniques that make this path, lane by lane
     let by_light = s.r_l * (selected.pmf * sample.pdf);
     let by_chance = if sample.delta { Spectrum::ZERO } else { pdf * s.r_u };

@@ -11,7 +11,7 @@ use crate::{
     medium::Inside,
     observer::PathObserver,
     settings::{Equiangular, Settings},
-    shadow::{End, shadow},
+    shadow::{End, Place, shadow},
     weight::{PathWeight, divide},
 };
 use tyndall_base::{Vec3, warp};
@@ -264,7 +264,15 @@ fn connect<const N: usize>(
     if l.is_zero() || technique.is_nan() || technique <= 0.0 {
         return None;
     }
-    let s = shadow(scene, settings, x, at.medium, End::At(y.target), w, sampler)?;
+    let s = shadow(
+        scene,
+        settings,
+        x,
+        Place { medium: at.medium, inside: Some(inside) },
+        End::At(y.target),
+        w,
+        sampler,
+    )?;
     let phase = inside.phase.eval(-segment.d, wi, w);
     let f = inside.sigma_s * inside.transmittance(t) * phase;
     // densities of the three techniques, lane by lane

@@ -17,6 +17,15 @@ pub struct Shadow<const N: usize> {
     pub r_u: Spectrum<N>,
 }
 
+/// The medium that a shadow ray starts in, with its coefficients, which the path knows already.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a, 's, const N: usize> {
+    /// The medium.
+    pub medium: MediumId,
+    /// Its coefficients; `None` in vacuum.
+    pub inside: Option<&'a Inside<'s, N>>,
+}
+
 /// The far end of a shadow ray: a point on a light, or a direction to infinity.
 #[derive(Clone, Copy, Debug)]
 pub enum End {
@@ -32,7 +41,7 @@ pub fn shadow<const N: usize>(
     scene: &Scene,
     settings: &Settings,
     o: Vec3,
-    mut medium: MediumId,
+    start: Place<'_, '_, N>,
     end: End,
     w: &Wavelengths<N>,
     sampler: &mut PathSampler,
@@ -43,15 +52,18 @@ pub fn shadow<const N: usize>(
     if scene.blocked(&ray) {
         return None;
     }
+    let mut medium = start.medium;
+    let mut inside = start.inside.copied();
     loop {
         let hit = scene.next_boundary(&ray);
         let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
-        if let Some(inside) = Inside::of(scene, medium, w) {
-            attenuate(&mut s, &inside, t, settings, sampler)?;
+        if let Some(inside) = &inside {
+            attenuate(&mut s, inside, t, settings, sampler)?;
         }
         let Some(hit) = hit else { return Some(s) };
         let isect = scene.interaction(&ray, &hit);
         medium = isect.medium_towards(ray.d, medium);
+        inside = Inside::of(scene, medium, w);
         let Some(rest) = towards(isect.surface.origin(ray.d), &end) else { return Some(s) };
         ray = rest;
     }

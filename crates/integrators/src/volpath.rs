@@ -10,6 +10,7 @@ use crate::{
     medium::Inside,
     observer::{Event, PathObserver, Vertex},
     settings::{Equiangular, Settings},
+    shadow::Place,
     weight::{PathWeight, divide},
 };
 use tyndall_base::{Vec3, warp};
@@ -224,6 +225,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     (phase, phase)
                 },
                 rival: self.rival,
+                known: Place { medium, inside: Some(inside) },
             };
             self.direct(&vertex, sampler, seen);
         }
@@ -283,7 +285,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.previous = isect.surface.p;
 
         if self.settings.light_sampling && !bsdf.is_delta() {
-            let medium = self.medium;
+            let (medium, inside) = (self.medium, self.inside);
             let vertex = Scatterer {
                 p: isect.surface.p,
                 spawn: |wi| (isect.surface.origin(wi), isect.medium_towards(wi, medium)),
@@ -292,6 +294,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     (bsdf.eval(wo, wi) * wi.z.abs(), bsdf.pdf(wo, wi))
                 },
                 rival: None,
+                known: Place { medium, inside: inside.as_ref() },
             };
             self.direct(&vertex, sampler, seen);
         }
@@ -356,7 +359,7 @@ impl<'s, const N: usize> Walk<'s, N> {
     #[inline(always)]
     fn direct<S, F>(
         &mut self,
-        vertex: &Scatterer<S, F>,
+        vertex: &Scatterer<'_, '_, S, F, N>,
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
     ) where

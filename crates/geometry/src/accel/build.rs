@@ -261,19 +261,30 @@ struct Output<'a> {
 }
 
 impl Output<'_> {
-    fn emit(&mut self, tree: &Tree) -> Child {
+    /// The child that `tree` becomes, and the mask bits of its primitives.
+    fn emit(&mut self, tree: &Tree) -> (Child, u8) {
         match tree {
-            Tree::Leaf { from, to } => self.leaf(&self.refs[*from..*to]),
+            Tree::Leaf { from, to } => {
+                let refs = &self.refs[*from..*to];
+                (self.leaf(refs), refs.iter().fold(0, |bits, r| bits | self.mask_of(r)))
+            }
             Tree::Inner(children) => {
                 let id = self.nodes.len();
                 self.nodes.push(Node::EMPTY);
+                let mut bits = 0;
                 for (slot, (bounds, child)) in children.iter().enumerate() {
-                    let child = self.emit(child);
-                    self.nodes[id].set(slot, *bounds, child);
+                    let (child, mask) = self.emit(child);
+                    self.nodes[id].set(slot, *bounds, child, mask);
+                    bits |= mask;
                 }
-                Child(id as u32)
+                (Child(id as u32), bits)
             }
         }
+    }
+
+    /// An instance may hold anything.
+    fn mask_of(&self, r: &Ref) -> u8 {
+        if r.kind == Kind::Instance { u8::MAX } else { (self.mask)(r.shape) }
     }
 
     fn leaf(&mut self, refs: &[Ref]) -> Child {

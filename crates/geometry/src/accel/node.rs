@@ -61,7 +61,8 @@ impl Child {
 pub(crate) struct Node {
     pub planes: [[f32; WIDTH]; 6],
     pub child: [Child; WIDTH],
-    pub unused: [u32; WIDTH],
+    /// By bit of the visibility masks: the slots that lead to a primitive with that bit.
+    pub slots_with: [u32; WIDTH],
 }
 
 impl Node {
@@ -72,15 +73,19 @@ impl Node {
             [LO, HI, LO, HI, LO, HI]
         },
         child: [Child::NONE; WIDTH],
-        unused: [0; WIDTH],
+        slots_with: [0; WIDTH],
     };
 
-    pub fn set(&mut self, slot: usize, b: Bounds3, child: Child) {
+    /// Fills a slot with a child whose primitives have the bits `mask` among them.
+    pub fn set(&mut self, slot: usize, b: Bounds3, child: Child, mask: u8) {
         for k in 0..3 {
             self.planes[2 * k][slot] = b.lo[k];
             self.planes[2 * k + 1][slot] = b.hi[k];
         }
         self.child[slot] = child;
+        for (bit, slots) in self.slots_with.iter_mut().enumerate() {
+            *slots |= u32::from(mask >> bit & 1) << slot;
+        }
     }
 }
 

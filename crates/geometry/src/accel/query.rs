@@ -3,7 +3,7 @@
 use super::lanes::{Lanes, Portable};
 #[cfg(target_arch = "x86_64")]
 use super::lanes_avx2::Avx2;
-use super::node::{Bvh, Other};
+use super::node::{Bvh, Node, Other, WIDTH};
 use super::traverse::{WORLD, walk};
 use super::{Accel, Isa};
 use crate::dvec::DVec3;
@@ -38,6 +38,8 @@ impl LocalRay {
 pub(crate) struct Query<'a, F> {
     accel: &'a Accel,
     mask: u32,
+    /// The only bit of `mask`, if there is but one.
+    bit: Option<usize>,
     filter: F,
     time: f32,
     /// Nearest accepted hit, or the ray's end.
@@ -51,12 +53,29 @@ impl<'a, F: FnMut(&Hit) -> bool> Query<'a, F> {
     #[inline(always)]
     fn new(accel: &'a Accel, ray: &Ray, mask: u8, filter: F) -> Self {
         let t_max = ray.t_max;
-        Self { accel, mask: u32::from(mask), filter, time: ray.time, t: f64::from(t_max), t_max, hit: None }
+        let bit = mask.is_power_of_two().then_some(mask.trailing_zeros() as usize);
+        Self {
+            accel,
+            mask: u32::from(mask),
+            bit,
+            filter,
+            time: ray.time,
+            t: f64::from(t_max),
+            t_max,
+            hit: None,
+        }
     }
 
     #[inline(always)]
     pub fn t_max(&self) -> f32 {
         self.t_max
+    }
+
+    /// Slots of a node behind which something may take part.
+    #[inline(always)]
+    pub fn slots(&self, node: &Node) -> u32 {
+        // a query of one bit looks it up; others look everywhere
+        self.bit.map_or(u32::MAX, |bit| node.slots_with[bit & (WIDTH - 1)])
     }
 
     /// Whether a primitive with this mask takes part.

@@ -125,6 +125,7 @@ pub(crate) fn walk<L: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
             // SAFETY: the builder writes only indices of nodes that exist, and empty slots have empty boxes.
             let node = unsafe { nodes.get_unchecked(current.0 as usize) };
             let (near, mask) = slabs.test(l, node, t_max);
+            let mask = mask & query.slots(node);
             if mask != 0 {
                 current = descend::<L, ANY>(l, nodes, blocks, node, near, mask, &mut stack);
                 continue;
