@@ -14,7 +14,7 @@ pub struct SceneArgs {
     /// written as in the scene file, without type and quotes. Example: --set fog.scale=0.5
     #[arg(long = "set", value_name = "NAME.PARAM=VALUE", value_parser = Override::parse)]
     pub overrides: Vec<Override>,
-    /// Spectral range in nm [default: the film's, else 360:830]
+    /// Spectral range in nm [default: 360:830, widened to hold --bands]
     #[arg(long, value_name = "FROM:TO", value_parser = Range::parse)]
     pub range: Option<Range>,
     /// Make every warning about the scene an error (spectra that end inside the spectral range, for one)

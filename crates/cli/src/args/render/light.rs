@@ -15,7 +15,8 @@ pub struct LightArgs {
     /// How paths are made [default: the scene's]
     #[arg(long, value_enum, value_name = "NAME")]
     pub integrator: Option<Integrator>,
-    /// Longest path, counted as pbrt counts; -1 is unlimited [default: the scene's, else 5]
+    /// Most scatterings of a path, at surfaces and in media, as pbrt counts; -1 is unlimited [default: the scene's, else
+    /// 5]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(-1..))]
     pub max_depth: Option<i32>,
     /// How wavelengths travel
@@ -33,7 +34,8 @@ pub struct LightArgs {
     /// Density that wavelengths are drawn from [default: light]
     #[arg(long, value_enum, value_name = "DENSITY")]
     pub wavelength_pdf: Option<WavelengthPdf>,
-    /// Clamp samples of a larger luminance, and say what was removed [default: never]
+    /// Clamp samples of a larger luminance Y, in the unit of the image, and say what was removed; biased [default:
+    /// never]
     #[arg(long, value_name = "LUMINANCE", value_parser = positive)]
     pub firefly_clamp: Option<f64>,
     /// Seed of all random numbers [default: the scene's, else 0]

@@ -28,7 +28,7 @@ pub struct OutputArgs {
     /// Write spectral bands with these edges in nm, beside R, G, B [default: the film's]
     #[arg(long, value_name = "FROM:TO:STEP", value_parser = Bands::parse)]
     pub bands: Option<Bands>,
-    /// Write these too
+    /// Write these layers too, separated by commas
     #[arg(long = "aov", value_name = "LIST", value_enum, value_delimiter = ',')]
     pub aovs: Vec<Aov>,
     /// Write orders of scattering apart: `0,1,2+` is direct, single and multiple scattering

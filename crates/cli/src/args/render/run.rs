@@ -28,7 +28,8 @@ pub struct RunArgs {
     /// Do the K-th of N parts of the work (K from 1) and write a film for `tyndall merge`
     #[arg(long, value_name = "K/N", value_parser = Shard::parse)]
     pub shard: Option<Shard>,
-    /// What earlier rounds have learned; shards of one job share it
+    /// Sample counts per pixel that a run with --until has learned, from its film (-o NAME.film); shards of one job
+    /// share it
     #[arg(long, value_name = "FILE")]
     pub guide: Option<PathBuf>,
 }
