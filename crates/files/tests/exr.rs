@@ -11,7 +11,7 @@ fn data(name: &str) -> std::path::PathBuf {
 /// Values that lossy storage would change: subnormal, huge, negative zero, infinite.
 fn awkward(i: usize) -> f32 {
     [0.1, -0.0, 1e-42, 3.4e38, f32::INFINITY, -7.25e-9, 16_777_217.0][i % 7]
-        * if i % 3 == 0 { -1.0 } else { 1.0 }
+        * if i.is_multiple_of(3) { -1.0 } else { 1.0 }
 }
 
 fn sample_image(width: usize, height: usize) -> Pixels {
@@ -25,6 +25,8 @@ fn sample_image(width: usize, height: usize) -> Pixels {
 
 fn attributed(mut pixels: Pixels) -> Pixels {
     pixels.set("comments", "made by a test, µm");
+    pixels.set("capDate", "2026:11:22 03:00:00");
+    pixels.set("expTime", 0.5_f32);
     pixels.set("sceneHash", "0123456789abcdef");
     pixels.set("aNameOfMoreThanThirtyOneCharacters", "long");
     pixels.set("samplesPerPixel", 64);
@@ -187,6 +189,31 @@ fn openexrs_half_uint_and_tiled_files() {
     let tiled = read_exr(&data("tiled_half_rgba.exr")).expect("a sound file");
     for (name, c) in [("R", 1.0), ("G", 2.0), ("B", 3.0), ("A", 0.0)] {
         assert_eq!(tiled.channel(name), Some(ramp(c, 5, 3).as_slice()), "{name}");
+    }
+}
+
+#[test]
+fn what_was_read_can_be_written_again() {
+    for name in
+        ["spectral_openexr.exr", "mixed_piz.exr", "tiled_half_rgba.exr", "rgb_dwaa.exr", "rgb_dwaa_raw.exr"]
+    {
+        let pixels = read_exr(&data(name)).expect("a sound file");
+        assert_eq!(decoded(&encoded(&pixels, &ExrOptions::default())), pixels, "{name}");
+    }
+}
+
+#[test]
+fn dwa_files_are_close_and_their_raw_blocks_too() {
+    for (name, width) in [("rgb_dwaa.exr", 40), ("rgb_dwaa_raw.exr", 20)] {
+        let pixels = read_exr(&data(name)).expect("a sound file");
+        assert_eq!(pixels.width(), width);
+        for (channel, c) in [("R", 1.0), ("G", 2.0), ("B", 3.0)] {
+            for (i, value) in pixels.channel(channel).expect("a channel").iter().enumerate() {
+                // the files were made as c + sin(x / 4) + y / 10 in half floats
+                let made = c + (0.25 * (i % width) as f32).sin() + 0.1 * (i / width) as f32;
+                assert!((value - made).abs() < 0.05, "{name} {channel} {i}: {value} {made}");
+            }
+        }
     }
 }
 

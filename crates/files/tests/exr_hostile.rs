@@ -19,7 +19,7 @@ fn small_file(compression: ExrCompression) -> Vec<u8> {
 
 fn seeds() -> Vec<Vec<u8>> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
-    let made = ["spectral_openexr.exr", "mixed_piz.exr", "tiled_half_rgba.exr"];
+    let made = ["spectral_openexr.exr", "mixed_piz.exr", "tiled_half_rgba.exr", "rgb_dwaa.exr"];
     let mut seeds: Vec<_> =
         made.iter().map(|n| std::fs::read(data.join(n)).expect("a file of ours")).collect();
     seeds.extend([small_file(ExrCompression::Zip), small_file(ExrCompression::None)]);
@@ -65,6 +65,21 @@ fn a_huge_announced_size_is_refused_at_once() {
 }
 
 #[test]
+fn a_chunk_that_announces_terabytes_is_refused() {
+    let sound = seeds().swap_remove(3);
+    // the header ends with its last attribute and a zero byte; the offset of the only chunk follows
+    let header_end = value_of(&sound, b"type\0string\0") + b"scanlineimage\0".len();
+    let chunk = usize::from(u16::from_le_bytes([sound[header_end], sound[header_end + 1]]));
+    let counters = chunk + 8; // behind line number and size
+    for counter in [1, 6, 7, 8, 9] {
+        let mut bytes = sound.clone();
+        bytes[counters + counter * 8 + 5] = 1; // 2^40 more
+        let error = read(&bytes).expect_err("it cannot unpack to that");
+        assert!(error.to_string().contains("DWA chunks of at most"), "{counter}: {error}");
+    }
+}
+
+#[test]
 fn every_truncation_is_an_error() {
     for seed in seeds() {
         for length in 0..seed.len() {
@@ -100,7 +115,7 @@ proptest! {
 
     #[test]
     fn mutations_never_panic(
-        seed in 0..5_usize,
+        seed in 0..6_usize,
         edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..12),
         cut in prop::option::of(any::<prop::sample::Index>()),
     ) {

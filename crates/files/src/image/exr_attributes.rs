@@ -41,15 +41,60 @@ pub(super) fn store(pixels: &Pixels, header: &mut Header) -> Result<()> {
             ("pixelAspectRatio", MetaValue::Float(v)) => header.shared_attributes.pixel_aspect = *v,
             ("screenWindowCenter", MetaValue::Vec2([x, y])) => own.screen_window_center = Vec2(*x, *y),
             ("screenWindowWidth", MetaValue::Float(v)) => own.screen_window_width = *v,
-            ("comments", MetaValue::Text(v)) => own.comments = Some(text(v)),
-            ("owner", MetaValue::Text(v)) => own.owner = Some(text(v)),
-            ("software", MetaValue::Text(v)) => own.software_name = Some(text(v)),
-            ("whiteLuminance", MetaValue::Float(v)) => own.white_luminance = Some(*v),
             ("adoptedNeutral", MetaValue::Vec2([x, y])) => own.adopted_neutral = Some(Vec2(*x, *y)),
+            _ if store_standard(name, value, own) => {}
             _ => store_custom(name, value, own)?,
         }
     }
     Ok(())
+}
+
+/// Puts a value into the field that OpenEXR's standard attribute of that name and type has, if there is one.
+fn store_standard(name: &str, value: &MetaValue, own: &mut LayerAttributes) -> bool {
+    match value {
+        MetaValue::Text(v) => text_field(own, name).map(|field| *field = Some(text(v))),
+        MetaValue::Float(v) => float_field(own, name).map(|field| *field = Some(*v)),
+        MetaValue::Texts(v) if name.as_bytes() == standard_names::MULTI_VIEW => {
+            own.multi_view_names = Some(v.iter().map(|t| text(t)).collect());
+            Some(())
+        }
+        _ => None,
+    }
+    .is_some()
+}
+
+fn text_field<'a>(own: &'a mut LayerAttributes, name: &str) -> Option<&'a mut Option<Text>> {
+    Some(match name.as_bytes() {
+        standard_names::OWNER => &mut own.owner,
+        standard_names::COMMENTS => &mut own.comments,
+        standard_names::CAPTURE_DATE => &mut own.capture_date,
+        standard_names::SOFTWARE => &mut own.software_name,
+        standard_names::VIEW => &mut own.view_name,
+        standard_names::WRAP_MODES => &mut own.wrap_mode_name,
+        standard_names::RENDERING_TRANSFORM => &mut own.rendering_transform_name,
+        standard_names::LOOK_MOD_TRANSFORM => &mut own.look_modification_transform_name,
+        _ => return None,
+    })
+}
+
+fn float_field<'a>(own: &'a mut LayerAttributes, name: &str) -> Option<&'a mut Option<f32>> {
+    Some(match name.as_bytes() {
+        standard_names::WHITE_LUMINANCE => &mut own.white_luminance,
+        standard_names::X_DENSITY => &mut own.horizontal_density,
+        standard_names::UTC_OFFSET => &mut own.utc_offset,
+        standard_names::LONGITUDE => &mut own.longitude,
+        standard_names::LATITUDE => &mut own.latitude,
+        standard_names::ALTITUDE => &mut own.altitude,
+        standard_names::FOCUS => &mut own.focus,
+        standard_names::EXPOSURE_TIME => &mut own.exposure,
+        standard_names::APERTURE => &mut own.aperture,
+        standard_names::ISO_SPEED => &mut own.iso_speed,
+        standard_names::NEAR => &mut own.near_clip_plane,
+        standard_names::FAR => &mut own.far_clip_plane,
+        standard_names::FOV_X => &mut own.horizontal_field_of_view,
+        standard_names::FOV_Y => &mut own.vertical_field_of_view,
+        _ => return None,
+    })
 }
 
 fn store_custom(name: &str, value: &MetaValue, own: &mut LayerAttributes) -> Result<()> {

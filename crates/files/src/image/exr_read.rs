@@ -1,7 +1,7 @@
 //! Reading OpenEXR: any flat file with f16, f32 or u32 channels, scan lines or tiles, every compression of
 //! the crate `exr`; of several parts or resolution levels the first and largest.
 
-use super::{Pixels, Window, exr_attributes, guard::guarded};
+use super::{Pixels, Window, exr_attributes, exr_chunk::check_chunk, guard::guarded};
 use crate::{
     FileError, Place, Result,
     limits::{DEFLATE_RATIO, justify},
@@ -101,9 +101,13 @@ fn decode<R: Read + Seek>(stream: R, file_bytes: u64, path: &Path) -> Result<Pix
         .filter_chunks(false, |_, _, block| first_and_largest(block))
         .map_err(|e| exr_error(path, e))?;
     let header = chunks.headers()[0].clone();
+    let meta = chunks.meta_data().clone();
     let mut planes = Planes::new(&header, path)?;
-    for block in chunks.sequential_decompressor(false) {
-        let block = block.map_err(|e| exr_error(path, e))?;
+    for chunk in chunks {
+        let chunk = chunk.map_err(|e| exr_error(path, e))?;
+        check_chunk(&header, &chunk, path)?;
+        let block =
+            UncompressedBlock::decompress_chunk(chunk, &meta, false).map_err(|e| exr_error(path, e))?;
         if first_and_largest(block.index) {
             planes.insert(&block)?;
         }
@@ -123,6 +127,15 @@ fn read_header<R: Read + Seek>(stream: R, file_bytes: u64, path: &Path) -> Resul
 /// the best ratio of the compression.
 fn check_size(header: &Header, file_bytes: u64, path: &Path) -> Result<()> {
     const CHUNK_BYTES: u128 = 16; // offset, line number, size
+    const MOST_CHANNELS: usize = 1 << 14;
+    let channels = header.channels.list.len();
+    if channels > MOST_CHANNELS {
+        return Err(FileError::unsupported(
+            path,
+            format!("an image of {channels} channels"),
+            "store at most 16384 channels in a file",
+        ));
+    }
     justify(path, "chunks", header.chunk_count as u128 * CHUNK_BYTES, file_bytes, 1)?;
     if let BlockDescription::Tiles(tiles) = header.blocks
         && tiles.tile_size.0.max(tiles.tile_size.1) > 1 << 16
