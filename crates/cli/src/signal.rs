@@ -32,26 +32,37 @@ impl Stop {
 /// Watches for signals from now on. The first one sets the flag; a second one ends the process with 130.
 ///
 /// # Errors
-/// If a handler is installed already, or the system refuses one.
+/// If the system refuses a handler.
 pub fn watch() -> Result<Stop, ctrlc::Error> {
     watch_and(|| {})
 }
 
 /// Watches as [`watch`] does, and calls `on_first` at the first signal, after the flag is set.
 ///
+/// A signal that is ignored on purpose stays so, as under `nohup` or in the background of a script; then none is watched
+/// for, and a signal that is not ignored ends the process at once.
+///
 /// # Errors
-/// If a handler is installed already, or the system refuses one.
+/// If the system refuses a handler.
 pub fn watch_and(on_first: impl Fn() + Send + 'static) -> Result<Stop, ctrlc::Error> {
     let stop = Stop::new();
     let flag = stop.clone();
     // runs on a thread of its own, not inside the signal handler, so any call is allowed
-    ctrlc::try_set_handler(move || {
+    let watched = ctrlc::try_set_handler(move || {
         if flag.again() {
             std::process::exit(130);
         }
         on_first();
         tracing::warn!("stopping after the work in hand; interrupt again to end at once");
-    })?;
+    });
+    match watched {
+        Err(ctrlc::Error::MultipleHandlers) => {
+            tracing::info!(
+                "started with signals ignored: an interruption leaves the last checkpoint, but no image"
+            );
+        }
+        other => other?,
+    }
     Ok(stop)
 }
 
