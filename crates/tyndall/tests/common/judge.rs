@@ -79,9 +79,10 @@ impl Family {
         }
     }
 
-    /// Normal scores of the comparisons.
-    pub fn scores(&self) -> Vec<f64> {
-        self.rows.iter().map(|r| -normal_quantile(0.5 * r.p.max(1e-300)) * r.t.signum()).collect()
+    /// Of each comparison the difference and its normal score.
+    pub fn differences(&self) -> Vec<[f64; 2]> {
+        let score = |r: &Row| -normal_quantile(0.5 * r.p.max(1e-300)) * r.t.signum();
+        self.rows.iter().map(|r| [r.got.mean - r.expected, score(r)]).collect()
     }
 
     /// Panics when any comparison fails at [`ALPHA`] shared over the family, or knows its answer too badly to judge:

@@ -1,0 +1,51 @@
+//! The errors themselves: over many seeds, differences from the truth over their errors follow the normal law.
+
+mod common;
+
+use common::{Bands, Run, judge::Family, scene, table::Table};
+use tyndall_testkit::{Welford, distribution::normal_cdf, ks_test, z_max};
+
+const BANDS: Bands = Bands { count: 8 };
+const FLUX: &str = include_str!("../data/tests/slab_flux.csv");
+const SEEDS: std::ops::Range<u64> = 1000..1100;
+
+/// Differences and normal scores of one family at `seed`: plane albedo and transmittance of eight Rayleigh slabs.
+fn family(seed: u64, opow: bool) -> Vec<[f64; 2]> {
+    let table = Table::parse(FLUX).only("phase", "rayleigh").only("mu0", "0.5");
+    let phase = " \"string phase\" \"rayleigh\"";
+    let medium = scene::medium(&BANDS, "m", &table.column("tau"), &table.column("albedo"), phase);
+    let slab = scene::slab("m", scene::INTERFACE);
+    let run = Run::new(BANDS, 512).seed(seed);
+    let run = if opow { run.opow() } else { run };
+    let mut family = Family::default();
+    family.bands("R", &run.bands(&scene::reflectance(0.5, &medium, &slab)), &table.column("R"));
+    family.bands("T", &run.bands(&scene::transmittance(0.5, &medium, &slab)), &table.column("T_total"));
+    family.differences()
+}
+
+#[test]
+#[ignore = "100 seeds"]
+fn scores_of_a_hundred_seeds_are_normal() {
+    for opow in [false, true] {
+        let seeds: Vec<_> = SEEDS.map(|seed| family(seed, opow)).collect();
+        let all: Welford = seeds.iter().flatten().map(|[_, z]| *z).collect();
+        println!("opow {opow}: mean {:.3}, variance {:.3} of {} scores", all.mean(), all.variance(), all.n());
+        for row in 0..seeds[0].len() {
+            let score = || seeds.iter().map(|rows| rows[row][1]);
+            let (w, bias): (Welford, Welford) =
+                (score().collect(), seeds.iter().map(|rows| rows[row][0]).collect());
+            let bias = bias.z_test(0.0);
+            println!(
+                "  row {row:2}: scores' mean {:6.3}, variance {:.3}; all seeds together z = {:.2}",
+                w.mean(),
+                w.variance(),
+                bias.z
+            );
+            // seeds are independent, rows of one seed are not
+            bias.assert_ok("mean of all seeds", 32);
+            ks_test(score(), normal_cdf).assert_ok("distribution of scores", 32);
+            let spread = (w.variance() - 1.0) / (2.0 / (w.n() - 1) as f64).sqrt();
+            assert!(spread.abs() < z_max(32), "row {row}: variance {}", w.variance());
+        }
+    }
+}
