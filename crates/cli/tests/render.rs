@@ -196,6 +196,26 @@ fn a_time_limit_ends_on_a_whole_round() {
 }
 
 #[test]
+fn shards_with_a_guide_give_the_numbers_of_the_run_it_comes_from() {
+    let place = Place::new();
+    let job = "render --resolution 8x8 --spp 512 --quiet --errors replicated";
+    place.ok(&format!("{job} --until rel=20% -o until.exr -o until.film"));
+    let record = place.json("until.run.json");
+    assert_eq!(record["error"]["mode"], "replicated");
+    for k in 1..=2 {
+        place.ok(&format!("{job} --guide until.film --shard {k}/2 -o {k}.film"));
+    }
+    place.ok("merge 1.film 2.film -o merged.exr");
+    assert_eq!(place.json("merged.run.json")["spp"], record["spp"]);
+    let diff = place.ok("diff merged.exr until.exr");
+    assert!(diff.out.contains("identical"), "{}", diff.out);
+    let plain = place.run(&format!("{job} --guide 1.film -o x.exr"));
+    assert_eq!(plain.code, 0, "a shard's film carries its guide: {}", plain.err);
+    place.ok("render --resolution 8x8 --spp 2 --quiet -o none.film");
+    assert!(place.run(&format!("{job} --guide none.film")).refusal().contains("has learned nothing"));
+}
+
+#[test]
 fn json_logs_are_json() {
     let place = Place::new();
     let ran = place.ok("render --resolution 8x8 --spp 2 --log json");

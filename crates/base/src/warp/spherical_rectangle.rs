@@ -1,6 +1,6 @@
 use super::vec64::{V, add_scaled, cross, dot, from, length, to_vec3};
-use crate::math::f64::{atan2, sin_cos};
 use crate::each;
+use crate::math::f64::{atan2, sin_cos};
 use crate::vec::Vec3;
 use std::f64::consts::TAU;
 

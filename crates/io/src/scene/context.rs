@@ -53,6 +53,8 @@ impl Context<'_> {
     pub fn check_range(&self, params: &ParamSet, name: &str, curve: &Curve) -> Result<(), Error> {
         match curve.check_range(self.range) {
             Ok(None) => Ok(()),
+            // who says how to go on beyond the table knows that it ends
+            Ok(Some(_)) if params.contains("extrapolate") => Ok(()),
             Ok(Some(gap)) if !self.strict => {
                 params.warn_at(name, format!("{name}: {gap}"), self.warnings);
                 Ok(())

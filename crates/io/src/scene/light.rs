@@ -57,7 +57,7 @@ fn light(ctx: &Context<'_>, record: &LightRecord, units: &mut Units) -> Result<L
     let light = match declared.name.as_str() {
         "point" => {
             let intensity = emission::of_light(ctx, p, "I", space, units)?;
-            let intensity = powered(p, "power", intensity, 4.0 * std::f64::consts::PI, units)?;
+            let intensity = powered(p, "power", intensity, 4.0 * std::f64::consts::PI)?;
             Light::Point(PointLight { p: point("from", [0.0; 3])?, intensity })
         }
         "spot" => spot(ctx, p, space, units, [point("from", [0.0; 3])?, point("to", [0.0, 0.0, 1.0])?])?,
@@ -67,7 +67,7 @@ fn light(ctx: &Context<'_>, record: &LightRecord, units: &mut Units) -> Result<L
                 return Err(refuse(p, "from", "must differ from \"to\"", "the same point"));
             }
             let emission = emission::of_light(ctx, p, "L", space, units)?;
-            let emission = powered(p, "illuminance", emission, 1.0, units)?;
+            let emission = powered(p, "illuminance", emission, 1.0)?;
             Light::Distant(DistantLight { towards: towards.normalize(), emission })
         }
         "infinite" => infinite(ctx, record, units)?,
@@ -81,15 +81,9 @@ fn light(ctx: &Context<'_>, record: &LightRecord, units: &mut Units) -> Result<L
 }
 
 /// pbrt's `power` and `illuminance`: the target over what a unit of the normalised emission gives.
-fn powered(
-    p: &ParamSet,
-    name: &str,
-    emission: Emission,
-    per_unit: f64,
-    units: &Units,
-) -> Result<Emission, Error> {
+fn powered(p: &ParamSet, name: &str, emission: Emission, per_unit: f64) -> Result<Emission, Error> {
     let Some(target) = p.float64_opt(name)?.filter(|v| *v > 0.0) else { return Ok(emission) };
-    if units.absolute {
+    if p.bool("absolute", false)? {
         return Err(p.error_at(name, "must not be given with \"bool absolute\" true", &target.to_string()));
     }
     Ok(emission.scaled((target / per_unit) as f32))
@@ -105,7 +99,7 @@ fn spot(
     let (angle, delta) = (p.float("coneangle", 30.0)?, p.float("conedeltaangle", 5.0)?);
     let intensity = emission::of_light(ctx, p, "I", space, units)?;
     let spot = SpotLight::new(from, to - from, intensity.clone(), angle, delta).map_err(|e| at(p, e))?;
-    let intensity = powered(p, "power", intensity, spot.solid_angle(), units)?;
+    let intensity = powered(p, "power", intensity, spot.solid_angle())?;
     Ok(Light::Spot(SpotLight { intensity, ..spot }))
 }
 
@@ -122,7 +116,7 @@ fn infinite(ctx: &Context<'_>, record: &LightRecord, units: &mut Units) -> Resul
         return image(ctx, record, units);
     }
     let emission = emission::of_light(ctx, p, "L", &record.declared.color_space, units)?;
-    let emission = powered(p, "illuminance", emission, std::f64::consts::PI, units)?;
+    let emission = powered(p, "illuminance", emission, std::f64::consts::PI)?;
     Ok(Light::Infinite(UniformInfiniteLight { emission }))
 }
 
@@ -244,7 +238,7 @@ pub fn area(
     let two_sided = p.bool("twosided", false)?;
     let emission = emission::of_light(ctx, p, "L", space, units)?;
     let per_unit = area * std::f64::consts::PI * if two_sided { 2.0 } else { 1.0 };
-    let emission = powered(p, "power", emission, per_unit, units)?;
+    let emission = powered(p, "power", emission, per_unit)?;
     ctx.finish(p, &KNOWN);
     Ok((emission, two_sided))
 }

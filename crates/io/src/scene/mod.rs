@@ -9,6 +9,7 @@ mod degenerate;
 mod emission;
 mod film;
 mod image;
+mod leftovers;
 mod light;
 mod material;
 mod medium;
@@ -127,6 +128,7 @@ fn load(mut parser: Parser, options: &LoadOptions) -> Result<LoadedScene, Error>
     };
     let mut loaded = build::build(&ctx, &collected, options, inventory)?;
     overrides::check(&overrides)?;
+    leftovers::mark(&loaded.inventory);
     loaded.hash = hash(&parser, &files.borrow())?;
     loaded.sources = parser.sources().clone();
     loaded.diagnostics = diagnostics.clone();

@@ -23,7 +23,10 @@ pub struct SamplerDescription {
 pub fn sampler(ctx: &Context<'_>, collected: &Collected) -> Result<SamplerDescription, Error> {
     let mut found = SamplerDescription { kind: SamplerKind::OwenSobol, spp: 16, seed: 0 };
     for (key, name, value) in &collected.globals {
-        if key == "seed" {
+        if key != "seed" {
+            let message = format!("Option \"{}\" has no effect here", name.as_str());
+            ctx.warnings.warn(collected.place(name), message);
+        } else {
             match value {
                 OptionValue::Number(seed) if *seed >= 0.0 && seed.fract() == 0.0 => found.seed = *seed as u64,
                 _ => {

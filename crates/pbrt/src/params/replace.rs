@@ -16,7 +16,13 @@ impl ParamSet {
     ///
     /// # Errors
     /// When the text is not a list of values of that type.
-    pub fn replace(&mut self, origin: &str, kind: ParamType, name: &str, text: &str) -> Result<Arc<ParamInfo>, Error> {
+    pub fn replace(
+        &mut self,
+        origin: &str,
+        kind: ParamType,
+        name: &str,
+        text: &str,
+    ) -> Result<Arc<ParamInfo>, Error> {
         let directive = format!("Shape \"{name}\" \"{kind} {name}\" [ {text} ]");
         let file = load::load_bytes(&self.sources, origin, directive.into_bytes())?;
         let mut parser = Parser::new(self.sources.clone(), file, Resolver::new(Path::new(""))).fragment();

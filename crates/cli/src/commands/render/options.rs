@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use tyndall::engine::{EngineError, Quantity, Shard, Target, container};
-use tyndall::film::{ErrorMode, Guide};
+use tyndall::film::{ErrorMode, Guide, SampleCounts};
 use tyndall::integrators::layers::{Aov, Orders};
 use tyndall::spectral::{LambdaRange, strategy::Rule};
 use tyndall::{Options, Spectral, WavelengthPdf, memory};
@@ -114,11 +114,14 @@ fn covering(range: LambdaRange, bands: &Bands) -> LambdaRange {
 fn guide(path: &Path) -> Result<Guide, Failure> {
     let read = container::read(path, memory::available(), |_| Ok(()));
     let (_, state) = read.map_err(|e: EngineError| Failure::of(e.into()))?;
-    if state.guide == Guide::default() {
+    let Some(counts) = &state.guide.counts else {
         return Err(Failure::input(
             format!("{}: the film has learned nothing", path.display()),
             Some("a guide comes from the film (-o NAME.film) of a run with --until"),
         ));
-    }
-    Ok(state.guide)
+    };
+    // the film's guide speaks of its last look alone; the job as a whole takes everything after the pilot
+    let first = vec![Target::luminance(1.0).pilot; counts.end().len()];
+    let whole = SampleCounts::new(counts.bounds(), first, counts.end().to_vec());
+    whole.map(Guide::with_counts).map_err(|e| Failure::of(e.into()))
 }
