@@ -14,7 +14,6 @@ const WAITING: &str = "TYNDALL_TEST_WAITS";
 fn wait_for_signals() {
     let Ok(mode) = std::env::var(WAITING) else { return };
     let stop = signal::watch().expect("the first handler of this process");
-    assert!(signal::watch().is_err(), "one handler only");
     std::fs::write(std::env::var("READY").expect("set beside the mode"), "").expect("writable");
     let start = Instant::now();
     while start.elapsed() < Duration::from_secs(30) {
