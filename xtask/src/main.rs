@@ -1,5 +1,6 @@
 //! The project's own tasks: `cargo xtask help` lists them.
 
+mod bench;
 mod hygiene;
 mod layers;
 mod sizes;
@@ -12,6 +13,8 @@ const HELP: &str = "\
 cargo xtask TASK
 
   test [STEP]...   everything that decides whether the project is sound, or only the named steps
+  bench            efficiency of the defaults and of every technique, in target/bench; --quick, --inner for inner
+                   loops, --peers installs Mitsuba 3 into target/peers and sets it beside ours
   layers           which crate may use which, and the size of source files
   hygiene          no machine paths, no unfinished-work markers, no large files in the repository
   help             this text
@@ -27,6 +30,7 @@ fn main() -> ExitCode {
         arguments.split_first().map_or(("help", &[][..]), |(task, rest)| (task.as_str(), rest));
     match task {
         "test" => steps::test(rest),
+        "bench" => bench::bench(rest),
         "layers" => report(layers::check()),
         "hygiene" => report(hygiene::check()),
         "help" | "--help" | "-h" => {
