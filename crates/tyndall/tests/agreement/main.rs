@@ -23,7 +23,6 @@ fn in_the_fog_box() {
 }
 
 #[test]
-#[ignore = "heavy tails: one of 720 means differs (t = -5.9 of 8 replicates) without equiangular samples on later segments; open"]
 fn in_a_spotlight() {
     all_agree(&scenes::THIN_SPOT);
 }
