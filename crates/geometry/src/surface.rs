@@ -45,7 +45,16 @@ impl Rounding {
 #[inline]
 fn round_up(x: f64) -> f32 {
     let r = x as f32;
-    if f64::from(r) < x { r.next_up() } else { r }
+    // the next float in order of value without a branch; zero has gone up already where it was not exact
+    let bits = r.to_bits();
+    let up = f32::from_bits(if r == 0.0 {
+        1
+    } else if r > 0.0 {
+        bits + 1
+    } else {
+        bits.wrapping_sub(1)
+    });
+    if f64::from(r) < x { up } else { r }
 }
 
 /// The `f32` point nearest to the exact surface point that is certainly not behind it, seen from the side that

@@ -8,6 +8,7 @@
 //! followed by light sampling, and a free flight followed by a scattering that happens to meet the light.
 
 use crate::{
+    glow::{Glow, mixed},
     medium::Inside,
     observer::PathObserver,
     settings::{Equiangular, Settings},
@@ -200,6 +201,8 @@ pub struct Origin<'a, 's, const N: usize> {
     pub inside: &'a Inside<'s, N>,
     /// The weight at the segment's start.
     pub weight: &'a PathWeight<N>,
+    /// The point whose glow attracts the path.
+    pub lamp: Option<Vec3>,
     /// Scatterings that the sampled light has had.
     pub order: u32,
 }
@@ -278,7 +281,8 @@ fn connect<const N: usize>(
     // densities of the three techniques, lane by lane
     let flight = inside.collision_density(t, settings);
     let by_light = scene.lights.pmf(id) * light.pdf_li(&scene.accel, x, wi, &y.target);
-    let by_chance = if light.is_delta() { Spectrum::ZERO } else { phase * s.r_u };
+    let glow = Glow::in_medium(at.lamp, x, inside);
+    let by_chance = if light.is_delta() { Spectrum::ZERO } else { mixed(glow.as_ref(), phase, wi) * s.r_u };
     let r = weight.r_u * (s.r_l * technique + flight * (s.r_l * by_light + by_chance));
     Some(divide(weight.beta * f * s.t * l, r))
 }

@@ -35,6 +35,8 @@ pub struct Settings {
     pub equiangular_depth: u32,
     /// Limit equiangular distances to the lit part of a spotlight's cone.
     pub cone_clipping: bool,
+    /// Draw directions towards the glow around a light in a medium, too.
+    pub glow: bool,
     /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
     pub roulette_depth: u32,
     /// A path of throughput below this is at risk.
@@ -53,6 +55,7 @@ impl Default for Settings {
             equiangular: Equiangular::Auto,
             equiangular_depth: u32::MAX,
             cone_clipping: true,
+            glow: true,
             roulette_depth: 1,
             roulette_threshold: 0.5,
         }

@@ -47,15 +47,16 @@ pub fn shadow<const N: usize>(
     sampler: &mut PathSampler,
 ) -> Option<Shadow<N>> {
     let mut s = Shadow { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE };
-    // one query decides whether anything blocks the whole way; boundaries are looked for after that
+    // one query decides whether anything blocks the whole way; boundaries are looked for only where there are some
     let Some(mut ray) = towards(o, &end) else { return Some(s) };
-    if scene.blocked(&ray) {
+    let obstacles = scene.obstacles(&ray);
+    if obstacles.blocked {
         return None;
     }
     let mut medium = start.medium;
     let mut inside = start.inside.copied();
     loop {
-        let hit = scene.next_boundary(&ray);
+        let hit = if obstacles.boundary { scene.next_boundary(&ray) } else { None };
         let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
         if let Some(inside) = &inside {
             attenuate(&mut s, inside, t, settings, sampler)?;

@@ -7,6 +7,7 @@
 use crate::{
     direct::{self, Rival, Scatterer},
     equiangular::{self, Segment},
+    glow::{self, Glow, mixed},
     medium::Inside,
     observer::{Event, PathObserver, Vertex},
     settings::{Equiangular, Settings},
@@ -43,6 +44,7 @@ pub fn li<const N: usize>(
         inside: Inside::of(scene, scene.camera_medium, w),
         weight: PathWeight::START,
         rival: None,
+        lamp: glow::lamp(scene, settings, sampler),
         flight: warp::sample_exponential(first, 1.0),
         depth: 0,
         crossings: 0,
@@ -67,6 +69,8 @@ struct Walk<'s, const N: usize> {
     weight: PathWeight<N>,
     /// The equiangular technique of the last scattering.
     rival: Option<Rival>,
+    /// The point whose glow attracts the path.
+    lamp: Option<Vec3>,
     /// Optical distance to the next collision at the hero's wavelength; one number serves all boundaries on the way.
     flight: f32,
     depth: u32,
@@ -130,8 +134,13 @@ impl<'s, const N: usize> Walk<'s, N> {
             return None;
         }
         let segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;
-        let at =
-            equiangular::Origin { medium: self.medium, inside, weight: &self.weight, order: self.depth + 1 };
+        let at = equiangular::Origin {
+            medium: self.medium,
+            inside,
+            weight: &self.weight,
+            lamp: self.lamp,
+            order: self.depth + 1,
+        };
         self.l += equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler, seen);
         Some(segment)
     }
@@ -215,6 +224,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.scattered_widely = true;
 
         let wo = -self.ray.d;
+        let glow = Glow::in_medium(self.lamp, p, inside);
         if self.settings.light_sampling {
             let medium = self.medium;
             let vertex = Scatterer {
@@ -222,7 +232,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                 spawn: |_| (p, medium),
                 eval: |wi| {
                     let phase = inside.phase.eval(wo, wi, self.w);
-                    (phase, phase)
+                    (phase, mixed(glow.as_ref(), phase, wi))
                 },
                 rival: self.rival,
                 known: Place { medium, inside: Some(inside) },
@@ -230,11 +240,17 @@ impl<'s, const N: usize> Walk<'s, N> {
             self.direct(&vertex, sampler, seen);
         }
         let u = sampler.next_2d();
-        let s = inside.phase.sample(wo, [u.x, u.y], self.w);
-        if !self.weight.scatter(s.p, s.p, false) {
+        let mut u = [u.x, u.y];
+        let (wi, phase) = if let Some(wi) = glow.and_then(|g| g.sample(&mut u)) {
+            (wi, inside.phase.eval(wo, wi, self.w))
+        } else {
+            let s = inside.phase.sample(wo, u, self.w);
+            (s.wi, s.p)
+        };
+        if !self.weight.scatter(phase, mixed(glow.as_ref(), phase, wi), false) {
             return false;
         }
-        self.ray = Ray { time: self.ray.time, ..Ray::new(p, s.wi) };
+        self.ray = Ray { time: self.ray.time, ..Ray::new(p, wi) };
         self.survives(sampler)
     }
 
@@ -284,14 +300,16 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.rival = None;
         self.previous = isect.surface.p;
 
+        let n = if wo.z < 0.0 { -frame.z } else { frame.z };
+        let glow = Glow::on_surface(self.lamp, isect.surface.p, n, bsdf.flags(), self.inside.as_ref());
         if self.settings.light_sampling && !bsdf.is_delta() {
             let (medium, inside) = (self.medium, self.inside);
             let vertex = Scatterer {
                 p: isect.surface.p,
                 spawn: |wi| (isect.surface.origin(wi), isect.medium_towards(wi, medium)),
                 eval: |wi| {
-                    let wi = frame.to_local(wi);
-                    (bsdf.eval(wo, wi) * wi.z.abs(), bsdf.pdf(wo, wi))
+                    let local = frame.to_local(wi);
+                    (bsdf.eval(wo, local) * local.z.abs(), mixed(glow.as_ref(), bsdf.pdf(wo, local), wi))
                 },
                 rival: None,
                 known: Place { medium, inside: inside.as_ref() },
@@ -300,14 +318,30 @@ impl<'s, const N: usize> Walk<'s, N> {
         }
         let uc = sampler.next_1d();
         let u = sampler.next_2d();
-        let Some(s) = bsdf.sample(wo, uc, [u.x, u.y]) else { return false };
-        let delta = s.flags.contains(BsdfFlags::DELTA);
-        self.scattered_widely |= !delta;
-        if !self.weight.scatter(s.f * s.wi.z.abs(), s.pdf, delta) {
-            return false;
+        let mut u = [u.x, u.y];
+        let wi;
+        if let Some(towards) = glow.and_then(|g| g.sample(&mut u)) {
+            wi = towards;
+            let local = frame.to_local(wi);
+            self.scattered_widely = true;
+            if !self.weight.scatter(
+                bsdf.eval(wo, local) * local.z.abs(),
+                mixed(glow.as_ref(), bsdf.pdf(wo, local), wi),
+                false,
+            ) {
+                return false;
+            }
+        } else {
+            let Some(s) = bsdf.sample(wo, uc, u) else { return false };
+            wi = frame.from_local(s.wi);
+            let delta = s.flags.contains(BsdfFlags::DELTA);
+            self.scattered_widely |= !delta;
+            let pdf = mixed(glow.as_ref(), s.pdf, wi);
+            if !self.weight.scatter(s.f * s.wi.z.abs(), pdf, delta) {
+                return false;
+            }
+            self.eta_scale *= s.eta * s.eta;
         }
-        let wi = frame.from_local(s.wi);
-        self.eta_scale *= s.eta * s.eta;
         self.go(isect.surface.origin(wi), wi, isect.medium_towards(wi, self.medium));
         self.survives(sampler)
     }

@@ -69,6 +69,15 @@ pub struct Interaction<'s> {
     pub light: Option<LightId>,
 }
 
+/// What lies on a shadow ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Obstacles {
+    /// A surface with a material.
+    pub blocked: bool,
+    /// A boundary without one; complete only where nothing blocks.
+    pub boundary: bool,
+}
+
 impl Scene {
     /// A scene with nothing in it.
     pub fn empty() -> Self {
@@ -111,16 +120,26 @@ impl Scene {
         self.accel.intersect(ray)
     }
 
-    /// Whether a surface with a material lies on `ray`.
+    /// Whether a surface with a material lies on `ray`, and whether a boundary without one does.
     #[inline(always)]
-    pub fn blocked(&self, ray: &Ray) -> bool {
-        self.accel.occluded_masked(ray, OPAQUE)
+    pub fn obstacles(&self, ray: &Ray) -> Obstacles {
+        let mut boundary = false;
+        if !self.has_boundaries {
+            return Obstacles { blocked: self.accel.occluded_masked(ray, OPAQUE), boundary };
+        }
+        // one walk answers both: it ends at the first material and notes every boundary on its way
+        let blocked = self.accel.occluded_filtered(ray, OPAQUE | BOUNDARY, |hit| {
+            let passes = self.shapes[hit.shape as usize].material.is_interface();
+            boundary |= passes;
+            !passes
+        });
+        Obstacles { blocked, boundary }
     }
 
     /// The nearest boundary without material along `ray`.
     #[inline(always)]
     pub fn next_boundary(&self, ray: &Ray) -> Option<Hit> {
-        if self.has_boundaries { self.accel.intersect_masked(ray, BOUNDARY) } else { None }
+        self.accel.intersect_masked(ray, BOUNDARY)
     }
 
     /// What stands at `hit`.

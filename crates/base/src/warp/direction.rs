@@ -61,3 +61,18 @@ pub fn sample_uniform_cone(u: [f32; 2], one_minus_cos_max: f32) -> Vec3 {
 pub fn pdf_uniform_cone(one_minus_cos_max: f32) -> f32 {
     1.0 / (TAU * one_minus_cos_max)
 }
+
+/// Dense towards `+z`: density `1 / (4 pi c)` per steradian, where `c = |w - z| = 2 sin(theta / 2)` is the chord to `+z`.
+///
+/// Single scattering around a small light at distance D makes the radiance `(pi - theta) / (D sin theta)`, which this
+/// follows within a factor of 1.3, with a distribution function that inverts in one line: `u = sin(theta / 2)`.
+#[inline(always)]
+pub fn sample_chord(u: [f32; 2]) -> Vec3 {
+    from_height(2.0 * u[0] * u[0], u[1])
+}
+
+/// Density per steradian of [`sample_chord`] at a direction whose chord to the axis is `chord`.
+#[inline(always)]
+pub fn pdf_chord(chord: f32) -> f32 {
+    0.5 / (TAU * chord)
+}

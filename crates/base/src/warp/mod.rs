@@ -12,8 +12,9 @@ mod spherical_triangle;
 mod vec64;
 
 pub use direction::{
-    pdf_cosine_hemisphere, pdf_uniform_cone, pdf_uniform_hemisphere, pdf_uniform_sphere,
-    sample_cosine_hemisphere, sample_uniform_cone, sample_uniform_hemisphere, sample_uniform_sphere,
+    pdf_chord, pdf_cosine_hemisphere, pdf_uniform_cone, pdf_uniform_hemisphere, pdf_uniform_sphere,
+    sample_chord, sample_cosine_hemisphere, sample_uniform_cone, sample_uniform_hemisphere,
+    sample_uniform_sphere,
 };
 pub use disk::{invert_concentric_disk, pdf_uniform_disk, sample_concentric_disk, sample_polar_disk};
 pub use distance::{

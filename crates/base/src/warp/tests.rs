@@ -51,6 +51,20 @@ fn cones_follow_their_density() {
 }
 
 #[test]
+fn directions_by_chord_follow_their_density() {
+    // the density has a pole on the axis: in coordinates (u, turn) it is even
+    let draw = |r: &mut Rng| {
+        let w = sample_chord(r.f32x2());
+        let chord = f64::from((w - vec3(0.0, 0.0, 1.0)).length());
+        Some([0.5 * chord, f64::from(w.y).atan2(f64::from(w.x))])
+    };
+    let pi = std::f64::consts::PI;
+    // solid angle per (u, phi): sin theta d theta = 4 u du
+    let pdf = |p: [f64; 2]| 4.0 * p[0] * f64::from(pdf_chord(2.0 * p[0] as f32));
+    chi2_2d(draw, pdf, [[1e-3, 1.0 + 1e-6], [-pi, pi]], N, 17).assert_ok("chord", FAMILY);
+}
+
+#[test]
 fn disks_follow_their_density() {
     let pdf =
         |p: [f64; 2]| if p[0] * p[0] + p[1] * p[1] <= 1.0 { f64::from(pdf_uniform_disk()) } else { 0.0 };

@@ -88,9 +88,11 @@ pub(super) fn triangles<L: Lanes, const ANY: bool, F: FnMut(&Hit) -> bool>(
         while lanes != 0 {
             let i = lanes.trailing_zeros() as usize & (LANES - 1);
             lanes &= lanes - 1;
-            let Some(t) = query.candidate(block.mask[i]).then(|| distance(block, i, ray)).flatten() else {
+            // no `then`: closures given to it are not compiled for this instruction set
+            if !query.candidate(block.mask[i]) {
                 continue;
-            };
+            }
+            let Some(t) = distance(block, i, ray) else { continue };
             let scale = 1.0 / sum[i];
             let (mut u, mut v) = (u[i] * scale, v[i] * scale);
             if block.mask[i] & Block::SECOND_HALF != 0 {

@@ -17,8 +17,8 @@ pub struct BilinearMesh {
     p: Vec<Vec3>,
     n: Vec<Vec3>,
     uv: Vec<Vec2>,
-    /// What each patch is, judged once.
-    forms: Vec<Form>,
+    /// Each patch as rays and lights need it, worked out once.
+    patches: Vec<Patch>,
 }
 
 /// What a patch is to the precision of its corners.
@@ -40,9 +40,8 @@ impl BilinearMesh {
     pub fn new(indices: Vec<[u32; 4]>, p: Vec<Vec3>) -> Result<Self, GeometryError> {
         check_coordinates(&p, "vertex")?;
         check_indices(indices.iter().flatten().copied(), 4, p.len(), "patch")?;
-        let form = |i: &[u32; 4]| Patch::new(i.map(|i| p[i as usize]), Form::Curved).judge();
-        let forms = indices.iter().map(form).collect();
-        Ok(Self { indices, p, n: vec![], uv: vec![], forms })
+        let patches = indices.iter().map(|i| Patch::new(i.map(|i| p[i as usize]))).collect();
+        Ok(Self { indices, p, n: vec![], uv: vec![], patches })
     }
 
     /// With per-vertex shading normals (before any reversal); empty for none.
@@ -84,8 +83,8 @@ impl BilinearMesh {
     }
 
     #[inline]
-    pub(crate) fn patch(&self, prim: u32) -> Patch {
-        Patch::new(self.corners(prim), self.forms[prim as usize])
+    pub(crate) fn patch(&self, prim: u32) -> &Patch {
+        &self.patches[prim as usize]
     }
 
     /// The box around patch `prim`.
@@ -103,14 +102,13 @@ impl BilinearMesh {
         let patch = self.patch(prim);
         let (p, noise) = patch.at(u, v);
         let (mut dpdu, mut dpdv) = (patch.dpdu(v), patch.dpdv(u));
-        let cross = dpdu.cross(dpdv);
-        let n = if cross.length_squared() > 0.0 { cross.normalize() } else { patch.mean_normal() };
+        let n = patch.normal(dpdu, dpdv);
         let mut ng = if group.flips_normal() { -n } else { n };
         let ns = self.shading_normal(prim, u, v, group.reverse_orientation).unwrap_or(ng);
         if ng.dot(ns) < 0.0 {
             ng = -ng;
         }
-        if !(cross.length_squared() > 0.0) {
+        if !patch.is_flat() && !(dpdu.cross(dpdv).length_squared() > 0.0) {
             (dpdu, dpdv) = any_tangents(ng);
         }
         let mut uv = [u, v];
@@ -163,14 +161,40 @@ pub(crate) struct Patch {
     pub f: DVec3,
     pub g: DVec3,
     form: Form,
+    /// Unit normal of a flat patch.
+    flat_normal: DVec3,
+    /// Area \[m^2\].
+    area: f64,
 }
 
 impl Patch {
-    #[inline]
-    fn new([p00, p10, p01, p11]: [Vec3; 4], form: Form) -> Self {
+    fn new([p00, p10, p01, p11]: [Vec3; 4]) -> Self {
         let (p00, p10): (DVec3, DVec3) = (p00.into(), p10.into());
         let (p01, p11): (DVec3, DVec3) = (p01.into(), p11.into());
-        Self { p00, e: p10 - p00, f: p01 - p00, g: (p11 - p10) - (p01 - p00), form }
+        let (e, f, g) = (p10 - p00, p01 - p00, (p11 - p10) - (p01 - p00));
+        let mut patch = Self { p00, e, f, g, form: Form::Curved, flat_normal: DVec3::default(), area: 0.0 };
+        patch.form = patch.judge();
+        if patch.is_flat() {
+            patch.flat_normal = e.cross(f).normalize();
+        }
+        patch.area = patch.integrated_area();
+        patch
+    }
+
+    /// Unit normal where the derivatives are these.
+    #[inline]
+    fn normal(&self, dpdu: DVec3, dpdv: DVec3) -> DVec3 {
+        if self.is_flat() {
+            return self.flat_normal;
+        }
+        let cross = dpdu.cross(dpdv);
+        if cross.length_squared() > 0.0 { cross.normalize() } else { self.mean_normal() }
+    }
+
+    /// Area \[m^2\].
+    #[inline]
+    pub fn area(&self) -> f64 {
+        self.area
     }
 
     /// Greatest magnitude of a coordinate, for judging what is rounding.
@@ -222,8 +246,12 @@ impl Patch {
     pub fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         let (e, f, g) = (self.e * u, self.f * v, self.g * (u * v));
         // flat: what the traversal's two triangles leave out; curved: what solving for u and v loses
-        let lost = 16.0 * NOISE * self.coordinate_size();
-        let extra = if self.is_flat() { self.g.abs() } else { dvec3(lost, lost, lost) };
+        let extra = if self.is_flat() {
+            self.g.abs()
+        } else {
+            let lost = 16.0 * NOISE * self.coordinate_size();
+            dvec3(lost, lost, lost)
+        };
         let size = |p: f64, e: f64, f: f64, g: f64| {
             if e == 0.0 && f == 0.0 && g == 0.0 {
                 0.0

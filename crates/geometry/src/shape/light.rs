@@ -170,13 +170,14 @@ impl Patch {
     }
 
     fn pdf_area(&self, u: f32, v: f32) -> f64 {
-        let parameters =
-            if self.is_flat() { 1.0 } else { f64::from(pdf_bilinear([u, v], self.corner_stretch())) };
-        parameters / self.stretch(u.into(), v.into())
+        if self.is_flat() {
+            return 1.0 / self.area();
+        }
+        f64::from(pdf_bilinear([u, v], self.corner_stretch())) / self.stretch(u.into(), v.into())
     }
 
     /// Area by a product of five-point Gauss-Legendre rules; exact for flat patches.
-    fn area(&self) -> f64 {
+    pub(super) fn integrated_area(&self) -> f64 {
         if self.is_flat() {
             return self.e.cross(self.f).length();
         }

@@ -138,7 +138,8 @@ impl TriangleMesh {
         let (p, noise) = at_barycentric(corners, b);
         let (ng, ns) = self.normals(prim, b, group);
         let uv = self.corner_uv(prim);
-        let (dpdu, dpdv) = tangents(corners, uv).unwrap_or_else(|| any_tangents(ng));
+        let spanned = if self.uv.is_empty() { Some(plain_tangents(corners)) } else { tangents(corners, uv) };
+        let (dpdu, dpdv) = spanned.unwrap_or_else(|| any_tangents(ng));
         let at = |k: usize| b[0] * uv[0][k] + b[1] * uv[1][k] + b[2] * uv[2][k];
         let s = if self.s.is_empty() { DVec3::default() } else { self.interpolate(&self.s, prim, b) };
         let dpdu = if s.length_squared() > 0.0 { s } else { dpdu };
@@ -173,6 +174,12 @@ pub(crate) fn at_barycentric([a, b, c]: [Vec3; 3], w: [f64; 3]) -> (DVec3, DVec3
         if e1 == 0.0 && e2 == 0.0 { 0.0 } else { NOISE * (a.abs() + e1.abs() + e2.abs()) }
     };
     (a + e1 + e2, dvec3(size(a.x, e1.x, e2.x), size(a.y, e1.y, e2.y), size(a.z, e1.z, e2.z)))
+}
+
+/// [`tangents`] of the coordinates (0,0), (1,0), (1,1).
+fn plain_tangents([a, b, c]: [Vec3; 3]) -> (DVec3, DVec3) {
+    let (a, b, c) = (DVec3::from(a), DVec3::from(b), DVec3::from(c));
+    (b - a, c - b)
 }
 
 /// Derivatives of position by texture coordinates; `None` where these do not span the triangle.

@@ -91,7 +91,7 @@ pub fn integrator_named(name: &str) -> Option<(Method, bool)> {
 /// Names for messages.
 pub const INTEGRATORS: &str = "volpath, analog, path (leaves media out), simplepath and simplevolpath";
 
-const KNOWN: [&str; 15] = [
+const KNOWN: [&str; 16] = [
     "maxdepth",
     "regularize",
     "lightsampler",
@@ -101,6 +101,7 @@ const KNOWN: [&str; 15] = [
     "survival",
     "coneclipping",
     "roulettedepth",
+    "glow",
     "roulettethreshold",
     "samplebsdf",
     "samplelights",
@@ -165,6 +166,7 @@ fn settings(p: &ParamSet) -> Result<Settings, Error> {
         survival: p.bool("survival", default.survival)?,
         equiangular,
         cone_clipping: p.bool("coneclipping", default.cone_clipping)?,
+        glow: p.bool("glow", default.glow)?,
         roulette_depth: if p.bool("russianroulette", true)? { roulette } else { u32::MAX },
         roulette_threshold: threshold,
         ..default

@@ -41,6 +41,7 @@ pub const TECHNIQUES: &[Variant] = &[
     settings("equiangular off", "small-lamp", |s| s.equiangular = Equiangular::Off),
     settings("equiangular always", "cloud-box", |s| s.equiangular = Equiangular::Always),
     settings("equiangular on first segments only", "small-lamp", |s| s.equiangular_depth = 0),
+    settings("glow off", "fog-box", |s| s.glow = false),
     settings("cone clipping off", "beam", |s| s.cone_clipping = false),
     settings("roulette off", "dark-fog", |s| s.roulette_depth = u32::MAX),
     settings("independent sampler", "empty-box", |s| s.sampler = SamplerKind::Independent),

@@ -56,6 +56,7 @@ const EVERYWHERE: &[Variant] = &[
     with_settings("equiangular off", |s| s.equiangular = Equiangular::Off, 1),
     with_settings("equiangular always", |s| s.equiangular = Equiangular::Always, 1),
     with_settings("equiangular on first segments", |s| s.equiangular_depth = 0, 1),
+    with_settings("glow off", |s| s.glow = false, 1),
     with_settings("roulette off", |s| s.roulette_depth = u32::MAX, 1),
     with_settings("fierce roulette", |s| (s.roulette_depth, s.roulette_threshold) = (0, 1.5), 2),
     with_settings("independent sampler", |s| s.sampler = SamplerKind::Independent, 1),
