@@ -53,6 +53,13 @@ impl<'s, const N: usize> Inside<'s, N> {
         if settings.survival { self.sigma_t } else { self.sigma_s }
     }
 
+    /// True where nothing scatters at any wavelength: the path then passes with the transmittance as its weight instead
+    /// of drawing flights that could only end it.
+    #[inline(always)]
+    pub fn only_absorbs(&self, settings: &Settings) -> bool {
+        settings.survival && settings.exact_transmittance && self.sigma_s.is_zero()
+    }
+
     /// What the segment \[0, t\] emits towards its start: le sigma_a / sigma_t (1 - exp(-sigma_t t)), exactly.
     #[inline]
     pub fn emitted(&self, t: f32) -> Spectrum<N> {

@@ -57,7 +57,7 @@ impl Default for Settings {
             cone_clipping: true,
             glow: true,
             roulette_depth: 1,
-            roulette_threshold: 0.5,
+            roulette_threshold: 0.25,
         }
     }
 }

@@ -90,7 +90,9 @@ fn attenuate<const N: usize>(
     if settings.exact_transmittance {
         let t = inside.transmittance(distance);
         s.t *= t;
-        s.r_u *= t;
+        if !inside.only_absorbs(settings) {
+            s.r_u *= t;
+        }
         return Some(());
     }
     // a free flight at the hero's wavelength that gets through or does not

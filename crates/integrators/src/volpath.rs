@@ -90,11 +90,15 @@ impl<'s, const N: usize> Walk<'s, N> {
         let t_max = hit.as_ref().map_or(f32::INFINITY, |h| h.t);
         if let Some(inside) = self.inside {
             self.emission(&inside, t_max, seen);
-            let segment = self.equiangular(&inside, t_max, sampler, seen);
-            if let Some(t) = self.collision(&inside, t_max) {
-                return self.scatter_medium(&inside, t, segment, sampler, seen);
+            if inside.only_absorbs(self.settings) {
+                self.absorb(&inside, t_max);
+            } else {
+                let segment = self.equiangular(&inside, t_max, sampler, seen);
+                if let Some(t) = self.collision(&inside, t_max) {
+                    return self.scatter_medium(&inside, t, segment, sampler, seen);
+                }
+                self.pass(&inside, t_max);
             }
-            self.pass(&inside, t_max);
         }
         match hit {
             None => self.escape(seen),
@@ -158,6 +162,16 @@ impl<'s, const N: usize> Walk<'s, N> {
             return None;
         }
         Some(self.flight / hero)
+    }
+
+    /// The segment was crossed through a medium that only absorbs.
+    #[inline(always)]
+    fn absorb(&mut self, inside: &Inside<'s, N>, t_max: f32) {
+        if t_max == f32::INFINITY {
+            self.weight.beta *= inside.sigma_t.map(|s| if s > 0.0 { 0.0 } else { 1.0 });
+        } else {
+            self.weight.beta *= inside.transmittance(t_max);
+        }
     }
 
     /// The segment was crossed without a collision.

@@ -47,8 +47,8 @@ fn the_mean_does_not_depend_on_the_number_of_lanes() {
     let text = everything();
     let one = run(65536, 1).hero(1).bands(&text);
     let four = run(16384, 2).hero(4).bands(&text);
-    let eight = run(4096, 3).bands(&text);
-    let sixteen = run(2048, 4).hero(16).bands(&text);
+    let eight = run(8192, 3).bands(&text);
+    let sixteen = run(4096, 4).hero(16).bands(&text);
     let mut family = Family::default();
     family.equal("1 and 4", &one, &four);
     family.equal("4 and 8", &four, &eight);

@@ -25,7 +25,7 @@ impl Curve {
             Self::Linear(table) => {
                 table.range().covers(&whole) && whole_knots(table.lambda().iter().copied(), whole)
             }
-            Self::Scaled(factor, curve) => return Some(curve.bake(range)?.fold_scale(*factor)),
+            Self::Scaled(factor, curve) => return Some(curve.bake(range)?.scaled(*factor)),
             _ => false,
         };
         exact.then(|| self.tabulate(whole))?.ok()
@@ -49,17 +49,6 @@ impl Curve {
         let count = whole.width() as usize + 1;
         let values: Vec<f32> = (0..count).map(|i| self.eval(whole.min + i as f32)).collect();
         Self::dense(whole.min as u32, &values, Outside::Error)
-    }
-
-    fn fold_scale(&self, factor: f32) -> Self {
-        match self {
-            Self::Dense(table) => {
-                let values: Vec<f32> = table.values().iter().map(|v| v * factor).collect();
-                Self::dense(table.first() as u32, &values, table.outside())
-                    .unwrap_or_else(|_| self.scaled(factor))
-            }
-            _ => self.scaled(factor),
-        }
     }
 }
 

@@ -79,6 +79,12 @@ impl Dense {
         self.sample(&Wavelengths::continuum([l], [1.0]))[0]
     }
 
+    /// The table times `factor`; `None` where that is not finite.
+    pub(super) fn scaled(&self, factor: f32) -> Option<Self> {
+        let values: Vec<f32> = self.values.iter().map(|v| v * factor).collect();
+        Self::new(self.first, self.step, &values, self.outside).ok()
+    }
+
     /// First wavelength \[nm\].
     pub fn first(&self) -> f32 {
         self.first

@@ -102,6 +102,10 @@ impl Curve {
             Self::Sigmoid(s) => Self::ScaledSigmoid(factor, *s),
             Self::ScaledSigmoid(f, s) => Self::ScaledSigmoid(f * factor, *s),
             Self::Scaled(f, curve) => Self::Scaled(f * factor, Arc::clone(curve)),
+            Self::Dense(table) => match table.scaled(factor) {
+                Some(scaled) => Self::Dense(Arc::new(scaled)),
+                None => Self::Scaled(factor, Arc::new(self.clone())),
+            },
             _ => Self::Scaled(factor, Arc::new(self.clone())),
         }
     }
