@@ -74,7 +74,9 @@ where
         fresh.as_ref()
     };
     let end = sample.target.map_or(End::Infinity(sample.wi), End::At);
-    let Some(s) = shadow(scene, settings, o, Place { medium, inside }, end, w, sampler) else {
+    let Some(s) =
+        shadow(scene, settings, o, Place { medium, inside, time: vertex.known.time }, end, w, sampler)
+    else {
         return Spectrum::ZERO;
     };
     // densities of the techniques that make this path, lane by lane

@@ -144,6 +144,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             weight: &self.weight,
             lamp: self.lamp,
             order: self.depth + 1,
+            time: self.ray.time,
         };
         self.l += equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler, seen);
         Some(segment)
@@ -249,7 +250,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     (phase, mixed(glow.as_ref(), phase, wi))
                 },
                 rival: self.rival,
-                known: Place { medium, inside: Some(inside) },
+                known: Place { medium, inside: Some(inside), time: self.ray.time },
             };
             self.direct(&vertex, sampler, seen);
         }
@@ -294,12 +295,14 @@ impl<'s, const N: usize> Walk<'s, N> {
     fn surface(&mut self, hit: &Hit, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> bool {
         let isect = self.scene.interaction(&self.ray, hit);
         self.emitted(hit, &isect, seen);
-        let binding = isect.binding;
-        if binding.material.is_interface() {
+        if isect.material.is_interface() {
             return self.cross(&isect, hit.t, seen);
         }
-        let material = &self.scene.materials[binding.material.index()];
+        let material = &self.scene.materials[isect.material.index()];
         let (frame, mut bsdf) = material.shade(&isect.surface, self.w);
+        if bsdf.wants_hero_only() {
+            self.weight.keep_hero();
+        }
         if self.settings.regularize && self.scattered_widely {
             bsdf = bsdf.regularized();
         }
@@ -326,7 +329,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     (bsdf.eval(wo, local) * local.z.abs(), mixed(glow.as_ref(), bsdf.pdf(wo, local), wi))
                 },
                 rival: None,
-                known: Place { medium, inside: inside.as_ref() },
+                known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
             };
             self.direct(&vertex, sampler, seen);
         }
@@ -441,7 +444,7 @@ impl<'s, const N: usize> Walk<'s, N> {
     #[inline(always)]
     fn watch_surface<O: PathObserver<N>>(&self, isect: &Interaction<'_>, n: Vec3, t: f32, seen: &mut O) {
         if O::WANTS_VERTICES {
-            let material = &self.scene.materials[isect.binding.material.index()];
+            let material = &self.scene.materials[isect.material.index()];
             let albedo = material.albedo(&isect.surface, self.w);
             self.watch(Event::Surface, isect.surface.p, n, t, albedo, seen);
         }

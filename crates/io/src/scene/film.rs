@@ -26,6 +26,8 @@ pub struct FilmDescription {
     pub white_balance: Option<f64>,
     /// Edges of spectral bands \[nm\]; empty for an RGB film.
     pub band_edges: Vec<f32>,
+    /// The film wants depth, normals and albedo beside the image.
+    pub gbuffer: bool,
 }
 
 impl FilmDescription {
@@ -90,10 +92,17 @@ pub fn film(ctx: &Context<'_>, declared: &Declared, exposure: f64) -> Result<Fil
     }
     let band_edges = match declared.name.as_str() {
         "rgb" => Vec::new(),
+        "gbuffer" => {
+            if p.string("coordinatesystem", "camera")? != "world" {
+                p.ignore("coordinatesystem", "normals are in the scene's coordinates");
+            }
+            Vec::new()
+        }
         "spectral" => bands(p, ctx)?,
         other => {
-            let hint = "this version has rgb and spectral; --aov writes what gbuffer holds";
-            return Err(p.error(format!("film \"{other}\" is not supported")).hint(hint));
+            return Err(p
+                .error(format!("film \"{other}\" is not known"))
+                .hint("known are rgb, spectral and gbuffer"));
         }
     };
     let description = FilmDescription {
@@ -104,6 +113,7 @@ pub fn film(ctx: &Context<'_>, declared: &Declared, exposure: f64) -> Result<Fil
         imaging_ratio: Sensor::imaging_ratio(exposure, p.float64("iso", 100.0)?),
         white_balance,
         band_edges,
+        gbuffer: declared.name.as_str() == "gbuffer",
     };
     description.channels().map_err(|e| at(p, e))?;
     ctx.finish(p, &KNOWN);
