@@ -28,14 +28,14 @@ fn at(u: f64) -> [f64; 3] {
     std::array::from_fn(|k| (0..4).map(|i| w[i] * f64::from(POINTS[i][k])).sum())
 }
 
-/// Distance of a parallel ray along -z from the axis, found by brute force, and the width there.
-fn distance(x: f64, y: f64) -> (f64, f64) {
-    let n = 4000;
+/// Distance of a parallel ray along -z from the axis, found by brute force, the width there, and whether it is an end.
+fn distance(x: f64, y: f64) -> (f64, f64, bool) {
+    let n = 1000;
     (0..=n)
         .map(|i| {
             let u = f64::from(i) / f64::from(n);
             let p = at(u);
-            ((p[0] - x).hypot(p[1] - y), 0.08 * (1.0 - u) + 0.02 * u)
+            ((p[0] - x).hypot(p[1] - y), 0.08 * (1.0 - u) + 0.02 * u, i == 0 || i == n)
         })
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .unwrap()
@@ -47,15 +47,14 @@ fn rays_meet_the_band_and_nothing_else() {
     let mut hits = 0;
     for split in [1, 8] {
         let a = build(vec![curve(CurveKind::Flat, split)]);
-        for _ in 0..4000 {
+        for _ in 0..1500 {
             // near the axis, where it is decided
             let p = at(f64::from(rng.unit()));
             let off = |r: f32| f64::from(0.1 * (r - 0.5));
             let (x, y) = (p[0] + off(rng.unit()), p[1] + off(rng.unit()));
-            let (d, width) = distance(x, y);
-            let beyond_ends = x < -0.98 || x > 0.98;
+            let (d, width, at_end) = distance(x, y);
             // the axis is followed to a twentieth of the width
-            if (d - 0.5 * width).abs() < 0.1 * 0.08 || beyond_ends {
+            if (d - 0.5 * width).abs() < 0.1 * 0.08 || at_end {
                 continue;
             }
             let ray = Ray::new(vec3(x as f32, y as f32, 5.0), vec3(0.0, 0.0, -1.0));
@@ -74,7 +73,7 @@ fn rays_meet_the_band_and_nothing_else() {
             }
         }
     }
-    assert!(hits > 1000, "{hits}");
+    assert!(hits > 500, "{hits}");
 }
 
 #[test]

@@ -87,6 +87,11 @@ impl BilinearMesh {
         &self.patches[prim as usize]
     }
 
+    /// Whether patch `prim` is a parallelogram.
+    pub fn is_flat(&self, prim: u32) -> bool {
+        self.forms[prim as usize] != Form::Curved
+    }
+
     /// The box around patch `prim`.
     pub fn prim_bounds(&self, prim: u32) -> Bounds3 {
         Bounds3::from_points(self.corners(prim))

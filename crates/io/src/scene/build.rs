@@ -198,7 +198,8 @@ pub fn build(
     };
     textures.check_all()?;
     let (_, radius) = accel.bounds().bounding_sphere();
-    let lights = LightSet::new(lights, radius, &|e| visible_power(e, ctx.range));
+    let weigh = |e: &Emission| visible_power(e, ctx.range);
+    let lights = LightSet::new(lights, radius, &weigh).choosing(integrator.selection, &accel, radius, &weigh);
     let stats = accel.stats();
     let has_alpha = groups.bindings.iter().any(|b| b.alpha.is_some());
     let has_boundaries = groups.bindings.iter().any(|b| b.material.is_interface());

@@ -5,6 +5,7 @@
 //! ray the light will be seen from.
 
 mod area;
+mod bounds;
 mod distant;
 mod goniometric;
 mod image;
@@ -13,6 +14,7 @@ mod point;
 mod projection;
 mod set;
 mod spot;
+mod tree;
 
 pub use area::{AreaExtra, AreaLight};
 pub use distant::DistantLight;
@@ -21,7 +23,7 @@ pub use image::{EnvironmentImage, ImageInfiniteLight, RgbEmission, sphere_to_squ
 pub use infinite::UniformInfiniteLight;
 pub use point::PointLight;
 pub use projection::ProjectionLight;
-pub use set::{LightSet, Selected};
+pub use set::{LightSet, Selected, Selection};
 pub use spot::SpotLight;
 
 use tyndall_base::Vec3;
