@@ -198,7 +198,7 @@ fn longitudinal(cos_i: f32, cos_o: f32, sin_i: f32, sin_o: f32, v: f32) -> f32 {
     let b = sin_i * sin_o / v;
     if v <= 0.1 {
         // ln I0 and sinh in logarithms, where both overflow
-        math::exp(log_i0(a) - b - 1.0 / v + 0.693_147_2 + math::ln(0.5 / v))
+        math::exp(log_i0(a) - b - 1.0 / v + std::f32::consts::LN_2 + math::ln(0.5 / v))
     } else {
         let sinh = 0.5 * (math::exp(1.0 / v) - math::exp(-1.0 / v));
         math::exp(-b) * i0(a) / (sinh * 2.0 * v)
