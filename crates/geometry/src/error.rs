@@ -60,6 +60,14 @@ pub enum GeometryError {
         /// How many there are.
         count: usize,
     },
+    /// Triangles round a vertex do not form one fan, so the mesh has no surface there.
+    #[error(
+        "vertex {vertex}: expected triangles that form one fan round it (a manifold mesh), got several or overlapping ones"
+    )]
+    NotManifold {
+        /// Index of the vertex.
+        vertex: usize,
+    },
     /// More primitives than the node format can address.
     #[error("acceleration structure: expected at most {limit} primitive blocks, got {got}")]
     TooManyPrimitives {

@@ -9,6 +9,7 @@ pub mod bounds;
 pub mod dvec;
 pub mod error;
 pub mod frame;
+pub mod motion;
 pub mod ray;
 pub mod shape;
 pub mod surface;
@@ -18,7 +19,11 @@ pub use accel::{Accel, BuildOptions, BuildStats, Dispatch, Hit, InstanceDesc, NO
 pub use bounds::Bounds3;
 pub use error::GeometryError;
 pub use frame::Frame;
+pub use motion::Motion;
 pub use ray::Ray;
-pub use shape::{BilinearMesh, Disk, MASK_ALL, Shape, ShapeGroup, Sphere, TriangleMesh};
+pub use shape::{
+    BilinearMesh, CurveKind, CurveSegment, Curves, Cylinder, Disk, MASK_ALL, Shape, ShapeGroup, Sphere,
+    TriangleMesh,
+};
 pub use surface::{Rounding, ShapeSample, SurfacePoint, segment, spawn_origin};
 pub use transform::Transform;

@@ -30,7 +30,7 @@ fn instanced(dispatch: Dispatch) -> Accel {
         Shape::Sphere(Sphere::whole([0.2, 0.1, 0.0], 0.4).unwrap()).into(),
         Shape::Triangles(soup(200, 0.2, 2)).into(),
     ];
-    let instances = placements().into_iter().map(|to_world| InstanceDesc { object: 0, to_world }).collect();
+    let instances = placements().into_iter().map(|to_world| InstanceDesc::at_rest(0, to_world)).collect();
     Accel::build(groups, &[vec![0, 1]], instances, &BuildOptions { dispatch }).unwrap()
 }
 
@@ -119,7 +119,7 @@ fn references_to_nothing_are_refused() {
     let options = BuildOptions::default();
     let no_shape = Accel::build(vec![group()], &[vec![1]], vec![], &options);
     assert!(matches!(no_shape, Err(GeometryError::NoSuch { index: 1, count: 1, .. })));
-    let lost = InstanceDesc { object: 2, to_world: Transform::IDENTITY };
+    let lost = InstanceDesc::at_rest(2, Transform::IDENTITY);
     let no_object = Accel::build(vec![group()], &[vec![0]], vec![lost], &options);
     assert!(matches!(no_object, Err(GeometryError::NoSuch { index: 2, count: 1, .. })));
 }
@@ -129,7 +129,7 @@ fn empty_scenes_and_empty_objects_are_met_by_nothing() {
     let ray = Ray::new(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0));
     let empty = build(vec![]);
     assert!(empty.intersect(&ray).is_none() && !empty.occluded(&ray) && empty.bounds().is_empty());
-    let nothing = InstanceDesc { object: 0, to_world: Transform::IDENTITY };
+    let nothing = InstanceDesc::at_rest(0, Transform::IDENTITY);
     let a = Accel::build(vec![], &[vec![]], vec![nothing], &BuildOptions::default()).unwrap();
     assert!(a.intersect(&ray).is_none());
 }

@@ -7,7 +7,9 @@ use common::{Rng, build};
 use tyndall_base::Vec3;
 use tyndall_base::vec::vec3;
 use tyndall_geometry::dvec::DVec3;
-use tyndall_geometry::{BilinearMesh, Disk, Ray, Shape, ShapeGroup, Sphere, Transform, TriangleMesh};
+use tyndall_geometry::{
+    BilinearMesh, Cylinder, Disk, Ray, Shape, ShapeGroup, Sphere, Transform, TriangleMesh,
+};
 
 fn turned() -> Transform {
     Transform::translate(0.2, -0.1, 0.4) * Transform::rotate(35.0, [1.0, 2.0, 0.5]).unwrap()
@@ -33,7 +35,10 @@ fn shapes() -> Vec<(&'static str, Shape)> {
     let squash = turned() * Transform::scale(1.0, 0.4, 0.7).unwrap();
     let sphere = |t, lo, hi, phi| Shape::Sphere(Sphere::new(t, 0.6, lo, hi, phi).unwrap());
     let disk = |t, inner, phi| Shape::Disk(Disk::new(t, 0.1, 0.7, inner, phi).unwrap());
+    let cylinder = |t, phi| Shape::Cylinder(Cylinder::new(t, 0.4, -0.3, 0.5, phi).unwrap());
     vec![
+        ("cylinder", cylinder(turned(), 360.0)),
+        ("part of a squeezed cylinder", cylinder(squash, 200.0)),
         ("triangle", triangle()),
         ("rectangle", rectangle()),
         ("parallelogram", patch([[0.0, 0.0, 0.0], [0.8, 0.0, 0.1], [0.3, 0.5, 0.0], [1.1, 0.5, 0.1]])),

@@ -142,7 +142,7 @@ fn an_instanced_cave_holds_its_rays() {
         * Transform::rotate(40.0, [1.0, 2.0, 3.0]).unwrap()
         * Transform::scale(3.0, -0.5, 10.0).unwrap();
     let groups = vec![Shape::Triangles(mesh.clone()).into()];
-    let instances = vec![InstanceDesc { object: 0, to_world }];
+    let instances = vec![InstanceDesc::at_rest(0, to_world)];
     let a = Accel::build(groups, &[vec![0]], instances, &BuildOptions::default()).unwrap();
     let p = mesh.positions().iter().map(|&q| to_world.point(q)).collect();
     let placed = TriangleMesh::new(mesh.indices().to_vec(), p).unwrap();

@@ -46,7 +46,7 @@ pub fn li<const N: usize>(
                 }
                 depth += 1;
                 let u = sampler.next_2d();
-                ray = Ray::new(p, m.phase.sample(-ray.d, [u.x, u.y], w).wi);
+                ray = Ray { time: ray.time, ..Ray::new(p, m.phase.sample(-ray.d, [u.x, u.y], w).wi) };
                 continue;
             }
         }
@@ -69,7 +69,7 @@ pub fn li<const N: usize>(
             seen.contribution(depth, &value);
             l += value;
         }
-        let wi = if isect.binding.material.is_interface() {
+        let wi = if isect.material.is_interface() {
             watch(seen, Event::Boundary, s.p, hit.t, depth, medium);
             ray.d
         } else {
@@ -78,7 +78,7 @@ pub fn li<const N: usize>(
                 break;
             }
             depth += 1;
-            let (frame, bsdf) = scene.materials[isect.binding.material.index()].shade(s, w);
+            let (frame, bsdf) = scene.materials[isect.material.index()].shade(s, w);
             let uc = sampler.next_1d();
             let u = sampler.next_2d();
             let Some(b) = bsdf.sample(frame.to_local(-ray.d), uc, [u.x, u.y]) else { break };
@@ -92,7 +92,7 @@ pub fn li<const N: usize>(
             frame.from_local(b.wi)
         };
         medium = isect.medium_towards(wi, medium);
-        ray = Ray::new(s.origin(wi), wi);
+        ray = Ray { time: ray.time, ..Ray::new(s.origin(wi), wi) };
     }
     l
 }

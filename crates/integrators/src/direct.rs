@@ -32,6 +32,8 @@ impl Rival {
 pub struct Scatterer<'a, 's, S, F, const N: usize> {
     /// The point \[m\], from which densities are measured.
     pub p: Vec3,
+    /// Normal of the surface there, zero in a medium: what lights are chosen for.
+    pub n: Vec3,
     /// Where a shadow ray along a direction starts and in which medium.
     pub spawn: S,
     /// `(f |cos|, density)` towards a direction, per lane.
@@ -58,7 +60,7 @@ where
 {
     let u_light = sampler.next_1d();
     let u = sampler.next_2d();
-    let Some(selected) = scene.lights.select(u_light) else { return Spectrum::ZERO };
+    let Some(selected) = scene.lights.select_at(vertex.p, vertex.n, u_light) else { return Spectrum::ZERO };
     let light = scene.lights.get(selected.id);
     let Some(sample) = light.sample_li(&scene.accel, vertex.p, [u.x, u.y], w) else { return Spectrum::ZERO };
     let (f, pdf) = (vertex.eval)(sample.wi);
@@ -74,7 +76,9 @@ where
         fresh.as_ref()
     };
     let end = sample.target.map_or(End::Infinity(sample.wi), End::At);
-    let Some(s) = shadow(scene, settings, o, Place { medium, inside }, end, w, sampler) else {
+    let Some(s) =
+        shadow(scene, settings, o, Place { medium, inside, time: vertex.known.time }, end, w, sampler)
+    else {
         return Spectrum::ZERO;
     };
     // densities of the techniques that make this path, lane by lane

@@ -205,6 +205,8 @@ pub struct Origin<'a, 's, const N: usize> {
     pub lamp: Option<Vec3>,
     /// Scatterings that the sampled light has had.
     pub order: u32,
+    /// The path's time within the shutter.
+    pub time: f32,
 }
 
 /// One sample of the technique on `segment`: the light it adds to the pixel.
@@ -271,7 +273,7 @@ fn connect<const N: usize>(
         scene,
         settings,
         x,
-        Place { medium: at.medium, inside: Some(inside) },
+        Place { medium: at.medium, inside: Some(inside), time: at.time },
         End::At(y.target),
         w,
         sampler,
@@ -280,9 +282,9 @@ fn connect<const N: usize>(
     let f = inside.sigma_s * inside.transmittance(t) * phase;
     // densities of the three techniques, lane by lane
     let flight = inside.collision_density(t, settings);
-    let by_light = scene.lights.pmf(id) * light.pdf_li(&scene.accel, x, wi, &y.target);
+    let by_light = scene.lights.pmf_at(x, Vec3::ZERO, id) * light.pdf_li(&scene.accel, x, wi, &y.target);
     let glow = Glow::in_medium(at.lamp, x, inside);
-    let by_chance = if light.is_delta() { Spectrum::ZERO } else { mixed(glow.as_ref(), phase, wi) * s.r_u };
+    let by_chance = if light.is_hidden() { Spectrum::ZERO } else { mixed(glow.as_ref(), phase, wi) * s.r_u };
     let r = weight.r_u * (s.r_l * technique + flight * (s.r_l * by_light + by_chance));
     Some(divide(weight.beta * f * s.t * l, r))
 }

@@ -170,8 +170,8 @@ impl<const N: usize> FirstSurface<N> {
             let Some(hit) = hit else { return found };
             travelled += t;
             let isect = scene.interaction(&ray, &hit);
-            if !isect.binding.material.is_interface() {
-                let material = &scene.materials[isect.binding.material.index()];
+            if !isect.material.is_interface() {
+                let material = &scene.materials[isect.material.index()];
                 found.distance = travelled;
                 found.normal = isect.surface.ns;
                 found.albedo = material.albedo(&isect.surface, w);

@@ -24,6 +24,8 @@ pub struct Place<'a, 's, const N: usize> {
     pub medium: MediumId,
     /// Its coefficients; `None` in vacuum.
     pub inside: Option<&'a Inside<'s, N>>,
+    /// The path's time within the shutter.
+    pub time: f32,
 }
 
 /// The far end of a shadow ray: a point on a light, or a direction to infinity.
@@ -48,7 +50,7 @@ pub fn shadow<const N: usize>(
 ) -> Option<Shadow<N>> {
     let mut s = Shadow { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE };
     // one query decides whether anything blocks the whole way; boundaries are looked for only where there are some
-    let Some(mut ray) = towards(o, &end) else { return Some(s) };
+    let Some(mut ray) = towards(o, &end, start.time) else { return Some(s) };
     let obstacles = scene.obstacles(&ray);
     if obstacles.blocked {
         return None;
@@ -65,17 +67,17 @@ pub fn shadow<const N: usize>(
         let isect = scene.interaction(&ray, &hit);
         medium = isect.medium_towards(ray.d, medium);
         inside = Inside::of(scene, medium, w);
-        let Some(rest) = towards(isect.surface.origin(ray.d), &end) else { return Some(s) };
+        let Some(rest) = towards(isect.surface.origin(ray.d), &end, start.time) else { return Some(s) };
         ray = rest;
     }
 }
 
 /// The remaining ray; `None` when nothing remains.
 #[inline(always)]
-fn towards(o: Vec3, end: &End) -> Option<Ray> {
+fn towards(o: Vec3, end: &End, time: f32) -> Option<Ray> {
     match end {
-        End::Infinity(d) => Some(Ray::new(o, *d)),
-        End::At(target) => target.ray_from(o, 0.0),
+        End::Infinity(d) => Some(Ray { time, ..Ray::new(o, *d) }),
+        End::At(target) => target.ray_from(o, time),
     }
 }
 

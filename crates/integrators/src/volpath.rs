@@ -40,6 +40,7 @@ pub fn li<const N: usize>(
         w,
         ray,
         previous: ray.o,
+        facing: Vec3::ZERO,
         medium: scene.camera_medium,
         inside: Inside::of(scene, scene.camera_medium, w),
         weight: PathWeight::START,
@@ -64,6 +65,8 @@ struct Walk<'s, const N: usize> {
     ray: Ray,
     /// The last scattering, from which densities of light sampling are measured.
     previous: Vec3,
+    /// Normal of the surface there, zero in a medium.
+    facing: Vec3,
     medium: MediumId,
     inside: Option<Inside<'s, N>>,
     weight: PathWeight<N>,
@@ -144,6 +147,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             weight: &self.weight,
             lamp: self.lamp,
             order: self.depth + 1,
+            time: self.ray.time,
         };
         self.l += equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler, seen);
         Some(segment)
@@ -234,7 +238,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         let to_hero = crate::weight::exp(Spectrum([inside.sigma_t.hero() * t])).hero() / hero;
         self.weight.r_e = if segment.is_some() { before * to_hero } else { Spectrum::ZERO };
         self.rival = segment.map(|segment| Rival { segment, t });
-        self.previous = p;
+        (self.previous, self.facing) = (p, Vec3::ZERO);
         self.scattered_widely = true;
 
         let wo = -self.ray.d;
@@ -243,13 +247,14 @@ impl<'s, const N: usize> Walk<'s, N> {
             let medium = self.medium;
             let vertex = Scatterer {
                 p,
+                n: Vec3::ZERO,
                 spawn: |_| (p, medium),
                 eval: |wi| {
                     let phase = inside.phase.eval(wo, wi, self.w);
                     (phase, mixed(glow.as_ref(), phase, wi))
                 },
                 rival: self.rival,
-                known: Place { medium, inside: Some(inside) },
+                known: Place { medium, inside: Some(inside), time: self.ray.time },
             };
             self.direct(&vertex, sampler, seen);
         }
@@ -276,7 +281,8 @@ impl<'s, const N: usize> Walk<'s, N> {
         for &id in self.scene.lights.infinite() {
             let light = self.scene.lights.get(id);
             let le = light.le_infinite(self.ray.d, self.w);
-            let pdf = self.scene.lights.pmf(id) * light.pdf_infinite(self.ray.d);
+            let pdf =
+                self.scene.lights.pmf_at(self.previous, self.facing, id) * light.pdf_infinite(self.ray.d);
             let r = self.weight.r_u + self.weight.r_l * self.by_light(pdf);
             self.add(self.weight.beta * le, r, seen);
         }
@@ -294,12 +300,14 @@ impl<'s, const N: usize> Walk<'s, N> {
     fn surface(&mut self, hit: &Hit, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> bool {
         let isect = self.scene.interaction(&self.ray, hit);
         self.emitted(hit, &isect, seen);
-        let binding = isect.binding;
-        if binding.material.is_interface() {
+        if isect.material.is_interface() {
             return self.cross(&isect, hit.t, seen);
         }
-        let material = &self.scene.materials[binding.material.index()];
+        let material = &self.scene.materials[isect.material.index()];
         let (frame, mut bsdf) = material.shade(&isect.surface, self.w);
+        if bsdf.wants_hero_only() {
+            self.weight.keep_hero();
+        }
         if self.settings.regularize && self.scattered_widely {
             bsdf = bsdf.regularized();
         }
@@ -312,7 +320,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         sampler.seek_vertex(self.depth - 1);
         self.weight.r_e = Spectrum::ZERO;
         self.rival = None;
-        self.previous = isect.surface.p;
+        (self.previous, self.facing) = (isect.surface.p, isect.surface.ng);
 
         let n = if wo.z < 0.0 { -frame.z } else { frame.z };
         let glow = Glow::on_surface(self.lamp, isect.surface.p, n, bsdf.flags(), self.inside.as_ref());
@@ -320,13 +328,14 @@ impl<'s, const N: usize> Walk<'s, N> {
             let (medium, inside) = (self.medium, self.inside);
             let vertex = Scatterer {
                 p: isect.surface.p,
+                n: isect.surface.ng,
                 spawn: |wi| (isect.surface.origin(wi), isect.medium_towards(wi, medium)),
                 eval: |wi| {
                     let local = frame.to_local(wi);
                     (bsdf.eval(wo, local) * local.z.abs(), mixed(glow.as_ref(), bsdf.pdf(wo, local), wi))
                 },
                 rival: None,
-                known: Place { medium, inside: inside.as_ref() },
+                known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
             };
             self.direct(&vertex, sampler, seen);
         }
@@ -373,7 +382,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         let mut r = self.weight.r_u;
         if self.settings.light_sampling && !(self.weight.r_l.is_zero() && self.weight.r_e.is_zero()) {
             let target = light.target(&self.scene.accel, hit, s);
-            let pdf = self.scene.lights.pmf(id)
+            let pdf = self.scene.lights.pmf_at(self.previous, self.facing, id)
                 * light.pdf_li(&self.scene.accel, self.previous, self.ray.d, &target);
             r += self.weight.r_l * pdf;
             if let Some(rival) = &self.rival {
@@ -441,7 +450,7 @@ impl<'s, const N: usize> Walk<'s, N> {
     #[inline(always)]
     fn watch_surface<O: PathObserver<N>>(&self, isect: &Interaction<'_>, n: Vec3, t: f32, seen: &mut O) {
         if O::WANTS_VERTICES {
-            let material = &self.scene.materials[isect.binding.material.index()];
+            let material = &self.scene.materials[isect.material.index()];
             let albedo = material.albedo(&isect.surface, self.w);
             self.watch(Event::Surface, isect.surface.p, n, t, albedo, seen);
         }

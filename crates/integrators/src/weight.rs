@@ -57,6 +57,16 @@ impl<const N: usize> PathWeight<N> {
         !self.beta.is_zero()
     }
 
+    /// Goes on with the hero's wavelength alone: a surface has no value for the others. Their densities go with them,
+    /// so that the hero carries the weight of all.
+    #[inline(never)]
+    pub fn keep_hero(&mut self) {
+        let hero = Spectrum::from_fn(|k| if k == 0 { 1.0 } else { 0.0 });
+        for w in [&mut self.beta, &mut self.r_u, &mut self.r_l, &mut self.r_e] {
+            *w *= hero;
+        }
+    }
+
     /// An event of free flight: contribution `f` per lane, lanes' densities `pdf`, both already over the hero's.
     #[inline(always)]
     pub fn fly(&mut self, f_over_hero: Spectrum<N>, pdf_over_hero: Spectrum<N>) {
@@ -125,6 +135,15 @@ mod tests {
         assert!(w.scatter(Spectrum([0.5, 0.0, 0.5, 0.5]), Spectrum([1.0, 0.0, 1.0, 1.0]), true));
         let t = w.throughput();
         assert!(t[1] == 0.0 && (t[0] - 0.5 / 0.75).abs() < 1e-6, "{t:?}");
+    }
+
+    /// In the mean over who is the hero, a path of the hero alone gives what a path of all gives.
+    #[test]
+    fn the_hero_alone_carries_the_weight_of_all() {
+        let mut w = PathWeight::<4>::START;
+        w.keep_hero();
+        let t = w.throughput();
+        assert!(t[0] == 4.0 && t[1] == 0.0 && t.mean() == 1.0, "{t:?}");
     }
 
     #[test]

@@ -6,9 +6,13 @@ use crate::{
     light::LightSet,
     material::Material,
     media::Medium,
+    texture::{FloatTexture, TextureContext},
 };
-use tyndall_base::Vec3;
-use tyndall_geometry::{Accel, Hit, Ray, SurfacePoint};
+use tyndall_base::{
+    Vec3,
+    hash::{hash3, hash4, to_unit_f32},
+};
+use tyndall_geometry::{Accel, Hit, MASK_ALL, Ray, SurfacePoint};
 use tyndall_spectral::Emission;
 
 /// Mask of shapes that stop light or bend it.
@@ -26,6 +30,8 @@ pub struct ShapeBinding {
     pub boundary: Option<Boundary>,
     /// The light of its first primitive, if it emits; one light a primitive, in order.
     pub first_light: Option<LightId>,
+    /// Probability that a ray sees the surface at a point; `None` where it always does.
+    pub alpha: Option<FloatTexture>,
 }
 
 /// The media on the two sides of a surface.
@@ -56,6 +62,10 @@ pub struct Scene {
     pub camera_medium: MediumId,
     /// Some shape is a boundary without material.
     pub has_boundaries: bool,
+    /// Some shape is seen in part only.
+    pub has_alpha: bool,
+    /// Some material is a mix of others.
+    pub has_mixes: bool,
 }
 
 /// A surface point as a path meets it.
@@ -65,6 +75,8 @@ pub struct Interaction<'s> {
     pub surface: SurfacePoint,
     /// What is bound to the shape.
     pub binding: &'s ShapeBinding,
+    /// Its material, decided where it is a mix.
+    pub material: MaterialId,
     /// The light of the primitive, if it emits.
     pub light: Option<LightId>,
 }
@@ -89,6 +101,7 @@ impl Scene {
             lens_radius: 0.0,
             focal_distance: 1.0,
             to_world: tyndall_geometry::Transform::IDENTITY,
+            motion: None,
         };
         let camera = Camera::Orthographic(Orthographic::new(projective).expect("a valid camera"));
         Self {
@@ -100,6 +113,8 @@ impl Scene {
             camera,
             camera_medium: MediumId::VACUUM,
             has_boundaries: false,
+            has_alpha: false,
+            has_mixes: false,
         }
     }
 
@@ -117,7 +132,7 @@ impl Scene {
     /// The nearest surface along `ray`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.accel.intersect(ray)
+        if self.has_alpha { self.nearest_opaque(ray, MASK_ALL) } else { self.accel.intersect(ray) }
     }
 
     /// Whether a surface with a material lies on `ray`, and whether a boundary without one does.
@@ -125,10 +140,18 @@ impl Scene {
     pub fn obstacles(&self, ray: &Ray) -> Obstacles {
         let mut boundary = false;
         if !self.has_boundaries {
-            return Obstacles { blocked: self.accel.occluded_masked(ray, OPAQUE), boundary };
+            let blocked = if self.has_alpha {
+                self.accel.occluded_filtered(ray, OPAQUE, |hit| self.sees(ray, hit))
+            } else {
+                self.accel.occluded_masked(ray, OPAQUE)
+            };
+            return Obstacles { blocked, boundary };
         }
         // one walk answers both: it ends at the first material and notes every boundary on its way
         let blocked = self.accel.occluded_filtered(ray, OPAQUE | BOUNDARY, |hit| {
+            if self.has_alpha && !self.sees(ray, hit) {
+                return false;
+            }
             let passes = self.shapes[hit.shape as usize].material.is_interface();
             boundary |= passes;
             !passes
@@ -136,10 +159,34 @@ impl Scene {
         Obstacles { blocked, boundary }
     }
 
+    #[inline(never)]
+    fn nearest_opaque(&self, ray: &Ray, mask: u8) -> Option<Hit> {
+        self.accel.intersect_filtered(ray, mask, |hit| self.sees(ray, hit))
+    }
+
+    /// Whether `ray` sees the shape at `hit`: with the probability `alpha`, by a number that the ray and the hit fix.
+    fn sees(&self, ray: &Ray, hit: &Hit) -> bool {
+        let Some(alpha) = &self.shapes[hit.shape as usize].alpha else { return true };
+        let a = alpha.constant().unwrap_or_else(|| {
+            let s = self.accel.surface(ray, hit);
+            alpha.eval(&TextureContext { p: s.p, n: s.ng, uv: s.uv })
+        });
+        if a <= 0.0 || a >= 1.0 {
+            return a > 0.0;
+        }
+        let bits = |v: Vec3| hash3(v.x.to_bits(), v.y.to_bits(), v.z.to_bits());
+        let what = hash4(hit.t.to_bits(), hit.shape, hit.prim, hit.instance);
+        to_unit_f32(hash3(bits(ray.o), bits(ray.d), what)) < a
+    }
+
     /// The nearest boundary without material along `ray`.
     #[inline(always)]
     pub fn next_boundary(&self, ray: &Ray) -> Option<Hit> {
-        self.accel.intersect_masked(ray, BOUNDARY)
+        if self.has_alpha {
+            self.nearest_opaque(ray, BOUNDARY)
+        } else {
+            self.accel.intersect_masked(ray, BOUNDARY)
+        }
     }
 
     /// What stands at `hit`.
@@ -147,7 +194,26 @@ impl Scene {
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> Interaction<'_> {
         let binding = &self.shapes[hit.shape as usize];
         let light = binding.first_light.map(|first| LightId(first.0 + hit.prim));
-        Interaction { surface: self.accel.surface(ray, hit), binding, light }
+        let surface = self.accel.surface(ray, hit);
+        let material = self.material_of(binding, &surface, ray.d);
+        Interaction { surface, binding, material, light }
+    }
+
+    /// The material that a path along `d` meets at `s`, [`MaterialId::INTERFACE`] for none; mixes are decided here.
+    #[inline(always)]
+    fn material_of(&self, binding: &ShapeBinding, s: &SurfacePoint, d: Vec3) -> MaterialId {
+        let id = binding.material;
+        if self.has_mixes && !id.is_interface() { self.unmixed(id, s, d) } else { id }
+    }
+
+    #[inline(never)]
+    fn unmixed(&self, mut id: MaterialId, s: &SurfacePoint, d: Vec3) -> MaterialId {
+        // readers refuse mixes within themselves, so this ends
+        while !id.is_interface() {
+            let Material::Mix(mix) = &self.materials[id.index()] else { break };
+            id = mix.choose(s, d);
+        }
+        id
     }
 
     /// The medium `id`, or `None` for vacuum.

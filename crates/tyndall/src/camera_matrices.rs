@@ -26,7 +26,7 @@ impl CameraMatrices {
         let to_camera = *camera.to_world().inverse().matrix();
         let projection = match camera {
             Camera::Perspective(c) => perspective(f64::from(c.tan_half())),
-            Camera::Orthographic(_) => IDENTITY,
+            Camera::Orthographic(_) | Camera::Spherical(_) => IDENTITY,
         };
         let window = window(camera.projective());
         Self {
@@ -88,6 +88,7 @@ mod tests {
             to_world: Transform::look_at([1.0, 2.0, 3.0], [0.5, 0.0, -1.0], [0.1, 1.0, 0.0])
                 .expect("regular")
                 .inverse(),
+            motion: None,
         }
     }
 

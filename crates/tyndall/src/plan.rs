@@ -11,7 +11,7 @@ use tyndall_engine::Job;
 use tyndall_film::{Channels, ErrorMode, FilmSpec, PixelBounds};
 use tyndall_geometry::Dispatch;
 use tyndall_integrators::{
-    layers::Layers,
+    layers::{Aov, Layers},
     pixel::{Lanes, Method, PixelPass},
 };
 use tyndall_io::{LoadOptions, LoadedScene, load_file, load_text, scene::crop_bounds};
@@ -94,7 +94,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
     let lanes = lanes(method, options)?;
     let layers = Layers {
         orders: options.orders.clone(),
-        aovs: options.aovs.clone(),
+        aovs: aovs(&loaded, options),
         flat: flat(&channels, options.range),
     };
     let seed = options.seed.unwrap_or(loaded.sampler.seed);
@@ -163,9 +163,17 @@ fn check_bands(edges: &[f32], range: LambdaRange) -> Result<(), Error> {
     ))
 }
 
+/// The layers that are asked for, else those of a `gbuffer` film.
+fn aovs(loaded: &LoadedScene, options: &Options) -> Vec<Aov> {
+    if options.aovs.is_empty() && loaded.film.gbuffer {
+        return vec![Aov::Depth, Aov::Normal, Aov::Albedo];
+    }
+    options.aovs.clone()
+}
+
 /// Analog paths meet lights by chance only.
 fn check_method(method: Method, scene: &Scene) -> Result<(), Error> {
-    if method == Method::Analog && scene.lights.iter().any(|l| l.is_delta()) {
+    if method == Method::Analog && scene.lights.iter().any(|l| l.is_hidden()) {
         return Err(Error::options(
             "--integrator analog: the scene has point, spot or distant lights, which no path meets by chance",
             Some("give the light a size, or use --integrator volpath".into()),

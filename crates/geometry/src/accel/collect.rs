@@ -19,7 +19,7 @@ pub(super) fn level(
     let corners = |r: &Ref| match &groups[r.shape as usize].shape {
         Shape::Triangles(m) => m.corners(r.prim),
         Shape::Bilinear(m) => half(m.corners(r.prim), r.kind == Kind::SecondHalf),
-        Shape::Sphere(_) | Shape::Disk(_) => unreachable!("only meshes are referred to as triangles"),
+        _ => unreachable!("only meshes are referred to as triangles"),
     };
     let bvh = build::build(refs, &corners, &|shape| groups[shape as usize].mask)?;
     stats.bytes += size_of_val(&*bvh.nodes) + size_of_val(&*bvh.blocks);
@@ -91,7 +91,7 @@ impl<'a> References<'a> {
         if object.bounds.is_empty() {
             return Ok(());
         }
-        let bounds = self.widen(instance.to_world.bounds(object.bounds));
+        let bounds = self.widen(instance.bounds(object.bounds));
         if let Some(value) = bounds.corners().iter().flat_map(|c| c.to_array()).find(|x| !x.is_finite()) {
             let place = Place { group: None, element: "instance", index };
             return Err(GeometryError::BadCoordinate { place, value });

@@ -19,7 +19,7 @@ mod triangle;
 use crate::error::GeometryError;
 use crate::shape::{LocalSurface, MASK_ALL, ShapeGroup};
 use crate::surface::Rounding;
-use crate::{Bounds3, Ray, SurfacePoint, Transform};
+use crate::{Bounds3, Motion, Ray, SurfacePoint, Transform};
 use collect::{References, level};
 use node::Bvh;
 use tyndall_base::vec::vec2;
@@ -49,15 +49,33 @@ pub struct Hit {
 pub struct InstanceDesc {
     /// Index of the object.
     pub object: u32,
-    /// From the object's space to the world.
+    /// From the object's space to the world, at the shutter's start.
     pub to_world: Transform,
+    /// How that changes while the shutter is open.
+    pub motion: Option<Box<Motion>>,
 }
 
 impl InstanceDesc {
-    /// The transform at `time`. Instances rest for now; this is where motion enters.
-    #[inline]
-    fn to_world(&self, _time: f32) -> &Transform {
-        &self.to_world
+    /// An object at rest.
+    pub fn at_rest(object: u32, to_world: Transform) -> Self {
+        Self { object, to_world, motion: None }
+    }
+
+    /// The transform at `time`; `room` holds it where it is worked out.
+    #[inline(always)]
+    fn to_world<'a>(&'a self, time: f32, room: &'a mut Option<Transform>) -> &'a Transform {
+        match &self.motion {
+            None => &self.to_world,
+            Some(motion) => room.insert(motion.at(time)),
+        }
+    }
+
+    /// The box around the object while the shutter is open.
+    fn bounds(&self, object: Bounds3) -> Bounds3 {
+        match &self.motion {
+            None => self.to_world.bounds(object),
+            Some(motion) => motion.bounds(object),
+        }
     }
 }
 
@@ -201,10 +219,14 @@ impl Accel {
     /// The surface that `ray` meets at `hit`, worked out in `f64` from the primitive.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let group = &self.groups[hit.shape as usize];
-        let to_world =
-            (hit.instance != NO_INSTANCE).then(|| self.instances[hit.instance as usize].to_world(ray.time));
+        let mut room = None;
+        let to_world = if hit.instance == NO_INSTANCE {
+            None
+        } else {
+            Some(self.instances[hit.instance as usize].to_world(ray.time, &mut room))
+        };
         let (o, d) = query::shape_ray(ray, to_world);
-        let local = group.local_surface(hit.prim, o, d);
+        let local = group.local_surface(hit.prim, o, d, f64::from(hit.t));
         finish(to_world.map_or(local, |t| place(&local, t)), ray.time)
     }
 

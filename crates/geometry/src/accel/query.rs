@@ -181,7 +181,8 @@ pub(crate) fn others<K: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
             Other::Instance(index) => {
                 let accel = query.accel;
                 let placed = &accel.instances[index as usize];
-                let local = ray.in_object(placed.to_world(query.time));
+                let mut room = None;
+                let local = ray.in_object(placed.to_world(query.time, &mut room));
                 k.level::<ANY, F>(&accel.objects[placed.object as usize], &local, query, index)
             }
         };
@@ -201,17 +202,27 @@ fn meet_shape<F: FnMut(&Hit) -> bool>(
     query: &mut Query<'_, F>,
     instance: u32,
 ) -> bool {
-    let met = match &query.accel.groups[shape as usize].shape {
-        // flat primitives are in the blocks
-        Shape::Triangles(_) => None,
-        Shape::Bilinear(m) => m.patch(prim).intersect(ray.o64, ray.d64, query.t),
-        Shape::Sphere(s) => s.intersect(ray.o64, ray.d64, query.t),
-        Shape::Disk(s) => s.intersect(ray.o64, ray.d64, query.t),
-    };
-    met.is_some_and(|m| {
+    let geometry = &query.accel.groups[shape as usize].shape;
+    let mut t_min = 0.0;
+    loop {
+        let range = [t_min, query.t];
+        let met = match geometry {
+            // flat primitives are in the blocks
+            Shape::Triangles(_) => None,
+            Shape::Bilinear(m) => m.patch(prim).intersect(ray.o64, ray.d64, range),
+            Shape::Sphere(s) => s.intersect(ray.o64, ray.d64, range),
+            Shape::Disk(s) => s.intersect(ray.o64, ray.d64, range),
+            Shape::Cylinder(s) => s.intersect(ray.o64, ray.d64, range),
+            Shape::Curves(c) => c.intersect(prim, ray.o64, ray.d64, range),
+        };
+        let Some(m) = met else { return false };
         let hit = Hit { t: m.t as f32, shape, prim, instance, u: m.u as f32, v: m.v as f32 };
-        query.offer(m.t, hit)
-    })
+        if query.offer(m.t, hit) {
+            return true;
+        }
+        // what the filter does not let pass may have another side behind it
+        t_min = m.t;
+    }
 }
 
 /// The nearest accepted hit.

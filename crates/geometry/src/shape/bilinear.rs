@@ -87,13 +87,25 @@ impl BilinearMesh {
         &self.patches[prim as usize]
     }
 
+    /// Whether patch `prim` is a parallelogram.
+    pub fn is_flat(&self, prim: u32) -> bool {
+        self.forms[prim as usize] != Form::Curved
+    }
+
     /// The box around patch `prim`.
     pub fn prim_bounds(&self, prim: u32) -> Bounds3 {
         Bounds3::from_points(self.corners(prim))
     }
 
-    pub(crate) fn local_surface(&self, prim: u32, o: DVec3, d: DVec3, group: &ShapeGroup) -> LocalSurface {
-        let (u, v) = self.patch(prim).parameters(o, d);
+    pub(crate) fn local_surface(
+        &self,
+        prim: u32,
+        o: DVec3,
+        d: DVec3,
+        near: f64,
+        group: &ShapeGroup,
+    ) -> LocalSurface {
+        let (u, v) = self.patch(prim).parameters(o, d, near);
         self.local_at(prim, u, v, group)
     }
 
@@ -268,10 +280,11 @@ impl Patch {
     }
 
     /// (u, v) where the line meets the patch, clamped to it.
-    fn parameters(&self, o: DVec3, d: DVec3) -> (f64, f64) {
+    fn parameters(&self, o: DVec3, d: DVec3, near: f64) -> (f64, f64) {
         if !self.is_flat() {
-            // the traversal found a hit; the nearest solution in front is that one
-            return self.intersect(o, d, f64::INFINITY).map_or((0.5, 0.5), |h| (h.u, h.v));
+            // the traversal found a hit; the first solution from there on is that one
+            let range = [near - 1e-5 * near.abs(), f64::INFINITY];
+            return self.intersect(o, d, range).map_or((0.5, 0.5), |h| (h.u, h.v));
         }
         let across = d.cross(self.f);
         let inv = 1.0 / self.e.dot(across);
@@ -281,8 +294,8 @@ impl Patch {
         (u, v)
     }
 
-    /// The nearest point of a curved patch along `o + t d`, `0 < t <= t_max`.
-    pub fn intersect(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<PrimHit> {
+    /// The nearest point of a curved patch along `o + t d`, `t_min < t <= t_max`.
+    pub fn intersect(&self, o: DVec3, d: DVec3, range: [f64; 2]) -> Option<PrimHit> {
         let a = self.p00 - o;
         // the ray crosses the ruled line from a + u e along f + u g: (a + u e) . (d x (f + u g)) = 0
         let (df, dg) = (d.cross(self.f), d.cross(self.g));
@@ -294,8 +307,8 @@ impl Patch {
         } else {
             quadratic_half(c2, 0.5 * c1, 0.25 * c1 * c1 - c2 * c0, c0)?
         };
-        let first = self.on_ruling(roots[0], a, d, t_max);
-        let second = self.on_ruling(roots[1], a, d, t_max);
+        let first = self.on_ruling(roots[0], a, d, range);
+        let second = self.on_ruling(roots[1], a, d, range);
         match (first, second) {
             (Some(h0), Some(h1)) => Some(if h1.t < h0.t { h1 } else { h0 }),
             (h0, h1) => h0.or(h1),
@@ -303,7 +316,7 @@ impl Patch {
     }
 
     /// Where the ray crosses the ruled line at `u`.
-    fn on_ruling(&self, u: f64, a: DVec3, d: DVec3, t_max: f64) -> Option<PrimHit> {
+    fn on_ruling(&self, u: f64, a: DVec3, d: DVec3, [t_min, t_max]: [f64; 2]) -> Option<PrimHit> {
         let (start, along) = (a + self.e * u, self.f + self.g * u);
         let perpendicular = d.cross(along);
         let inv = 1.0 / perpendicular.length_squared();
@@ -314,7 +327,7 @@ impl Patch {
         let reach = d.length() * t / (size.x.max(size.y).max(size.z));
         let slack = 0.5 * f64::from(f32::EPSILON) * (1.0 + reach.abs().min(1e4));
         let inside = |x: f64| x >= -slack && x <= 1.0 + slack;
-        (t > 0.0 && t <= t_max && inside(u) && inside(v)).then(|| PrimHit {
+        (t > t_min && t <= t_max && inside(u) && inside(v)).then(|| PrimHit {
             t,
             u: u.clamp(0.0, 1.0),
             v: v.clamp(0.0, 1.0),

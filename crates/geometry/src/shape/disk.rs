@@ -52,8 +52,8 @@ impl Disk {
         Bounds3::new((centre - e).round(), (centre + e).round()).padded(tyndall_base::Vec3::ZERO)
     }
 
-    /// The point along `o + t d` (world), `0 < t <= t_max`.
-    pub(crate) fn intersect(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<PrimHit> {
+    /// The point along `o + t d` (world), `t_min < t <= t_max`.
+    pub(crate) fn intersect(&self, o: DVec3, d: DVec3, [t_min, t_max]: [f64; 2]) -> Option<PrimHit> {
         let to_object = self.to_world.inverse();
         let (o, d) = (to_object.point64(o), to_object.vector64(d));
         let t = (self.height - o.z) / d.z;
@@ -61,7 +61,7 @@ impl Disk {
         let r2 = q.x * q.x + q.y * q.y;
         let in_ring = r2 <= self.radius * self.radius && r2 >= self.inner_radius * self.inner_radius;
         let hit =
-            t > 0.0 && t <= t_max && in_ring && (self.phi_max >= 2.0 * PI || azimuth(q) <= self.phi_max);
+            t > t_min && t <= t_max && in_ring && (self.phi_max >= 2.0 * PI || azimuth(q) <= self.phi_max);
         hit.then_some(PrimHit { t, u: 0.0, v: 0.0 })
     }
 

@@ -7,7 +7,7 @@
 
 use super::sphere::{Cone, Sphere};
 use super::{LocalSurface, Shape, ShapeGroup, bilinear::Patch, triangle::cross_edges};
-use crate::dvec::DVec3;
+use crate::dvec::{DVec3, dvec3};
 use crate::surface::{Rounding, ShapeSample};
 use crate::{Hit, SurfacePoint};
 use tyndall_base::warp::{
@@ -16,6 +16,13 @@ use tyndall_base::warp::{
 use tyndall_base::{Vec3, vec::vec2};
 
 impl LocalSurface {
+    /// What shapes give that cannot be sampled.
+    fn nowhere() -> Self {
+        let (zero, up) = (DVec3::default(), dvec3(0.0, 0.0, 1.0));
+        let (x, y) = (dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0));
+        Self { p: zero, noise: zero, ng: up, ns: up, dpdu: x, dpdv: y, uv: [0.0; 2] }
+    }
+
     /// This world-space point as a sample.
     pub(crate) fn sampled(&self, pdf: f64) -> ShapeSample {
         let (p, rounding) = Rounding::of(self.p, self.noise);
@@ -32,6 +39,9 @@ impl ShapeGroup {
             Shape::Bilinear(m) => m.patch(prim).area(),
             Shape::Sphere(s) => s.area(),
             Shape::Disk(s) => s.area(),
+            Shape::Cylinder(s) => s.area(),
+            // curves are no lights
+            Shape::Curves(_) => 1.0,
         }) as f32
     }
 
@@ -51,6 +61,8 @@ impl ShapeGroup {
             }
             Shape::Sphere(s) => s.sample_area(u, self),
             Shape::Disk(s) => s.sample_area(u, self),
+            Shape::Cylinder(s) => s.sample_area(u, self),
+            Shape::Curves(_) => LocalSurface::nowhere().sampled(0.0),
         }
     }
 
@@ -59,6 +71,7 @@ impl ShapeGroup {
     pub fn pdf_area_of(&self, prim: u32, reference: Vec3, sample: &ShapeSample) -> f32 {
         match &self.shape {
             Shape::Sphere(s) => s.pdf_area(sample.p) as f32,
+            Shape::Cylinder(s) => s.pdf_area(sample.p) as f32,
             Shape::Bilinear(m) if !m.patch(prim).is_flat() => {
                 // curved patches are sampled by area only
                 let v = DVec3::from(sample.p) - DVec3::from(reference);
@@ -75,6 +88,8 @@ impl ShapeGroup {
             Shape::Triangles(_) | Shape::Disk(_) => 1.0 / f64::from(self.area(hit.prim)),
             Shape::Bilinear(m) => m.patch(hit.prim).pdf_area(hit.u, hit.v),
             Shape::Sphere(s) => s.pdf_area(surface.p),
+            Shape::Cylinder(s) => s.pdf_area(surface.p),
+            Shape::Curves(_) => 0.0,
         }) as f32
     }
 
@@ -83,7 +98,7 @@ impl ShapeGroup {
     /// Uniform in solid angle on triangles (Arvo 1995), rectangles (Urena et al. 2013) and whole spheres from outside.
     pub fn sample_solid_angle(&self, prim: u32, reference: Vec3, u: [f32; 2]) -> Option<ShapeSample> {
         let along = |w: Vec3, pdf: f32| {
-            Some(self.local_surface(prim, reference.into(), w.into()).sampled(f64::from(pdf)))
+            Some(self.local_surface(prim, reference.into(), w.into(), 0.0).sampled(f64::from(pdf)))
         };
         match self.view(prim, reference) {
             View::Triangle(t) => along(t.sample(u), t.pdf()),
@@ -136,7 +151,7 @@ impl ShapeGroup {
             Shape::Sphere(s) => {
                 s.cone_from(reference.into()).map_or(View::Area, |cone| View::Sphere(s, cone))
             }
-            Shape::Bilinear(_) | Shape::Disk(_) => View::Area,
+            Shape::Bilinear(_) | Shape::Disk(_) | Shape::Cylinder(_) | Shape::Curves(_) => View::Area,
         }
     }
 }

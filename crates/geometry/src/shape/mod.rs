@@ -3,13 +3,19 @@
 //! Every shape works in `f64` on its `f32` input. A [`ShapeGroup`] is one `Shape` directive of a scene.
 
 pub mod bilinear;
+pub mod curve;
+pub mod cylinder;
+pub mod dice;
 pub mod disk;
 mod light;
+pub mod loopsubdiv;
 
 pub mod sphere;
 pub mod triangle;
 
 pub use bilinear::BilinearMesh;
+pub use curve::{CurveKind, CurveSegment, Curves};
+pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use sphere::Sphere;
 pub use triangle::TriangleMesh;
@@ -49,6 +55,10 @@ pub enum Shape {
     Sphere(Sphere),
     /// A disk, an annulus or a sector.
     Disk(Disk),
+    /// A cylinder or a part of one, without caps.
+    Cylinder(Cylinder),
+    /// Thin curves.
+    Curves(Curves),
 }
 
 impl From<Shape> for ShapeGroup {
@@ -65,6 +75,8 @@ macro_rules! each {
             Shape::Bilinear($s) => $e,
             Shape::Sphere($s) => $e,
             Shape::Disk($s) => $e,
+            Shape::Cylinder($s) => $e,
+            Shape::Curves($s) => $e,
         }
     };
 }
@@ -75,7 +87,8 @@ impl Shape {
         match self {
             Self::Triangles(m) => m.indices().len(),
             Self::Bilinear(m) => m.indices().len(),
-            Self::Sphere(_) | Self::Disk(_) => 1,
+            Self::Curves(c) => c.prim_count(),
+            Self::Sphere(_) | Self::Disk(_) | Self::Cylinder(_) => 1,
         }
     }
 
@@ -97,13 +110,15 @@ impl ShapeGroup {
         self.reverse_orientation != self.transform_swaps_handedness
     }
 
-    /// Local geometry where `o + t d` meets `prim`.
-    pub(crate) fn local_surface(&self, prim: u32, o: DVec3, d: DVec3) -> LocalSurface {
+    /// Local geometry where `o + t d` meets `prim`, next to the parameter `near` if it does so more than once.
+    pub(crate) fn local_surface(&self, prim: u32, o: DVec3, d: DVec3, near: f64) -> LocalSurface {
         match &self.shape {
             Shape::Triangles(m) => m.local_surface(prim, o, d, self),
-            Shape::Bilinear(m) => m.local_surface(prim, o, d, self),
-            Shape::Sphere(s) => s.local_surface(o, d, self),
+            Shape::Bilinear(m) => m.local_surface(prim, o, d, near, self),
+            Shape::Sphere(s) => s.local_surface(o, d, near, self),
             Shape::Disk(s) => s.local_surface(o, d, self),
+            Shape::Cylinder(s) => s.local_surface(o, d, near, self),
+            Shape::Curves(c) => c.local_surface(prim, o, d, near, self),
         }
     }
 }

@@ -97,13 +97,13 @@ impl Sphere {
         Bounds3::new((centre - e).round(), (centre + e).round()).padded(Vec3::ZERO)
     }
 
-    /// The nearest point along `o + t d` (world), `0 < t <= t_max`.
-    pub(crate) fn intersect(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<PrimHit> {
+    /// The nearest point along `o + t d` (world), `t_min < t <= t_max`.
+    pub(crate) fn intersect(&self, o: DVec3, d: DVec3, range: [f64; 2]) -> Option<PrimHit> {
         let to_object = self.to_world.inverse();
-        self.intersect_local(to_object.point64(o), to_object.vector64(d), t_max)
+        self.intersect_local(to_object.point64(o), to_object.vector64(d), range)
     }
 
-    fn intersect_local(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<PrimHit> {
+    fn intersect_local(&self, o: DVec3, d: DVec3, [t_min, t_max]: [f64; 2]) -> Option<PrimHit> {
         let r = self.radius;
         let (a, h) = (d.length_squared(), o.dot(d));
         let nearest = o - d * (h / a);
@@ -113,7 +113,7 @@ impl Sphere {
         let whole = self.is_whole();
         roots
             .into_iter()
-            .find(|&t| t > 0.0 && t <= t_max && (whole || self.keeps(o + d * t)))
+            .find(|&t| t > t_min && t <= t_max && (whole || self.keeps(o + d * t)))
             .map(|t| PrimHit { t, u: 0.0, v: 0.0 })
     }
 
@@ -124,12 +124,14 @@ impl Sphere {
         !low && !high && azimuth(p) <= self.phi_max
     }
 
-    pub(crate) fn local_surface(&self, o: DVec3, d: DVec3, group: &ShapeGroup) -> LocalSurface {
+    pub(crate) fn local_surface(&self, o: DVec3, d: DVec3, near: f64, group: &ShapeGroup) -> LocalSurface {
         let to_object = self.to_world.inverse();
         let (o, d) = (to_object.point64(o), to_object.vector64(d));
         // the traversal found a hit; a ray that the rounding of its record now takes past ends at its closest point
-        let t =
-            self.intersect_local(o, d, f64::INFINITY).map_or_else(|| -o.dot(d) / d.length_squared(), |h| h.t);
+        let before = near - 1e-5 * near.abs();
+        let t = self
+            .intersect_local(o, d, [before, f64::INFINITY])
+            .map_or_else(|| -o.dot(d) / d.length_squared(), |h| h.t);
         self.local_at(o + d * t, group)
     }
 

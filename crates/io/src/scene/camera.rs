@@ -1,13 +1,21 @@
 //! `Camera`.
 
 use super::{
+    build::{fractions, moving},
     collect::Declared,
     context::{Context, at, refuse},
+    film,
+    state::Moving,
 };
-use tyndall_pbrt::Error;
-use tyndall_transport::camera::{Camera, Orthographic, Perspective, Projective};
+use tyndall_pbrt::{Error, ParamSet};
+use tyndall_transport::camera::{Camera, Orthographic, Perspective, Projective, Spherical, SphericalMapping};
 
-const KNOWN: [&str; 10] = [
+const KNOWN: [&str; 15] = [
+    "mapping",
+    "lensfile",
+    "aperturediameter",
+    "aperture",
+    "scale",
     "fov",
     "halffov",
     "screenwindow",
@@ -20,45 +28,90 @@ const KNOWN: [&str; 10] = [
     "filename",
 ];
 
-/// The camera, and the shutter's opening and closing times.
+/// The camera, and the shutter's opening and closing times; `times` are those of moving transformations.
 pub fn camera(
     ctx: &Context<'_>,
     declared: &Declared,
-    resolution: [u32; 2],
+    times: [f64; 2],
+    film: &Declared,
 ) -> Result<(Camera, [f64; 2]), Error> {
     let p = &declared.params;
     let shutter = [p.float64("shutteropen", 0.0)?, p.float64("shutterclose", 1.0)?];
     if shutter[1] <= shutter[0] {
         return Err(refuse(p, "shutterclose", "must be after \"shutteropen\"", shutter[1]));
     }
-    if declared.ctm.moves() {
-        ctx.warnings.warn(p.place(), "moving cameras are not supported in this version: the start counts");
+    let resolution = film::resolution(&film.params)?;
+    let class = declared.name.as_str();
+    let made = match class {
+        "perspective" => {
+            let fov = p.float("fov", 90.0)?;
+            let fov = p.float_opt("halffov")?.map_or(fov, |half| 2.0 * half);
+            let projective = projective(declared, times, shutter, resolution)?;
+            Perspective::new(projective, fov).map(Camera::Perspective)
+        }
+        "orthographic" => {
+            Orthographic::new(projective(declared, times, shutter, resolution)?).map(Camera::Orthographic)
+        }
+        "spherical" => {
+            let mapping = mapping(p)?;
+            for name in ["lensradius", "focaldistance", "screenwindow", "frameaspectratio", "fov"] {
+                p.ignore(name, "a spherical camera sees all directions, all of them sharp");
+            }
+            Spherical::new(placed(declared, times, shutter, resolution)?, mapping).map(Camera::Spherical)
+        }
+        other => {
+            let hint = "known are perspective, orthographic and spherical; a realistic camera's lens files are not read";
+            return Err(p.error(format!("camera \"{other}\" is not supported")).hint(hint));
+        }
+    };
+    let camera = made.map_err(|e| at(p, e))?;
+    ctx.finish(p, &KNOWN);
+    Ok((camera, shutter))
+}
+
+fn mapping(p: &ParamSet) -> Result<SphericalMapping, Error> {
+    match p.string("mapping", "equalarea")?.as_str() {
+        "equalarea" => Ok(SphericalMapping::EqualArea),
+        "equirectangular" => Ok(SphericalMapping::Equirectangular),
+        other => Err(refuse(p, "mapping", "must be equalarea or equirectangular", format!("\"{other}\""))),
     }
+}
+
+/// A camera without window or lens.
+fn placed(
+    declared: &Declared,
+    times: [f64; 2],
+    shutter: [f64; 2],
+    resolution: [u32; 2],
+) -> Result<Projective, Error> {
+    let ctm = Moving { start: declared.ctm.start.inverse(), end: declared.ctm.end.inverse() };
+    let motion = moving(&ctm, fractions(times, shutter)).map_err(|e| at(&declared.params, e))?;
+    Ok(Projective {
+        resolution,
+        screen: Projective::default_screen(resolution, None),
+        lens_radius: 0.0,
+        focal_distance: 1e6,
+        to_world: ctm.start,
+        motion,
+    })
+}
+
+fn projective(
+    declared: &Declared,
+    times: [f64; 2],
+    shutter: [f64; 2],
+    resolution: [u32; 2],
+) -> Result<Projective, Error> {
+    let p = &declared.params;
     let screen = match p.floats("screenwindow")? {
         Some(w) if w.len() == 4 => [w[0], w[1], w[2], w[3]],
         Some(w) => return Err(refuse(p, "screenwindow", "must be 4 numbers", w.len())),
         None => Projective::default_screen(resolution, p.float_opt("frameaspectratio")?),
     };
-    let class = declared.name.as_str();
-    let projective = Projective {
-        resolution,
+    Ok(Projective {
         screen,
         lens_radius: p.float("lensradius", 0.0)?,
         focal_distance: p.float("focaldistance", 1e6)?,
-        to_world: declared.ctm.start.inverse(),
-    };
-    let camera = match class {
-        "perspective" => {
-            let fov = p.float("fov", 90.0)?;
-            let fov = p.float_opt("halffov")?.map_or(fov, |half| 2.0 * half);
-            Camera::Perspective(Perspective::new(projective, fov).map_err(|e| at(p, e))?)
-        }
-        "orthographic" => Camera::Orthographic(Orthographic::new(projective).map_err(|e| at(p, e))?),
-        other => {
-            let hint = "this version has perspective and orthographic";
-            return Err(p.error(format!("camera \"{other}\" is not supported")).hint(hint));
-        }
-    };
-    ctx.finish(p, &KNOWN);
-    Ok((camera, shutter))
+        ..placed(declared, times, shutter, resolution)?
+    })
 }

@@ -46,6 +46,8 @@ pub struct ShapeRecord {
     pub area_light: Option<AreaLight>,
     /// Media inside and outside, if the state named any.
     pub media: Option<(Text, Text)>,
+    /// It belongs to an object.
+    pub in_object: bool,
 }
 
 /// A light source and the medium it stands in.
@@ -307,6 +309,7 @@ impl Collector<'_> {
             material: self.state.material.clone(),
             area_light: self.state.area_light.clone(),
             media: self.state.media.clone(),
+            in_object: self.object.is_some(),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::{
     collect::Declared,
     color_space,
     context::{Context, at, refuse},
+    sensor,
 };
 use tyndall_film::{Channels, FilmError, PixelBounds, PixelFilter, Sensor};
 use tyndall_pbrt::{Error, ParamSet};
@@ -22,10 +23,14 @@ pub struct FilmDescription {
     pub space: SpaceName,
     /// Imaging ratio: exposure time times ISO over 100.
     pub imaging_ratio: f64,
+    /// A measured sensor; `None` is the eye.
+    pub sensor: Option<String>,
     /// White balance temperature \[K\], if any.
     pub white_balance: Option<f64>,
     /// Edges of spectral bands \[nm\]; empty for an RGB film.
     pub band_edges: Vec<f32>,
+    /// The film wants depth, normals and albedo beside the image.
+    pub gbuffer: bool,
 }
 
 impl FilmDescription {
@@ -33,7 +38,12 @@ impl FilmDescription {
     pub fn channels(&self) -> Result<Channels, FilmError> {
         let mut sensor = Sensor::cie1931(self.imaging_ratio);
         let space = tyndall_spectral::ColourSpace::get(self.space);
-        if let Some(kelvin) = self.white_balance {
+        if let Some(name) = &self.sensor {
+            // pbrt's white balance of a measured sensor, where the scene gives none
+            let kelvin = self.white_balance.unwrap_or(6500.0);
+            let unknown = || FilmError::Channels { what: format!("no sensor is named {name}") };
+            sensor = sensor::sensor(name, kelvin, space, self.imaging_ratio).ok_or_else(unknown)?;
+        } else if let Some(kelvin) = self.white_balance {
             let light =
                 illuminant::daylight(kelvin).map_err(|e| FilmError::Channels { what: e.to_string() })?;
             let from = colour::chromaticity(cie::xyz(&light));
@@ -71,12 +81,13 @@ pub fn film(ctx: &Context<'_>, declared: &Declared, exposure: f64) -> Result<Fil
     if let Some(kelvin) = white_balance.filter(|k| !(4000.0..=25000.0).contains(k)) {
         return Err(refuse(p, "whitebalance", "must be 0 (none) or 4000 to 25000 K", kelvin));
     }
-    let sensor = p.string("sensor", "cie1931")?;
-    if sensor != "cie1931" {
-        let hint = "\"cie1931\", pbrt's default, is the CIE 1931 standard observer";
-        return Err(
-            refuse(p, "sensor", "must be \"cie1931\" in this version", format!("\"{sensor}\"")).hint(hint)
-        );
+    let named = p.string("sensor", "cie1931")?;
+    let chosen = Some(named).filter(|name| name != "cie1931");
+    if let Some(name) = chosen.as_ref().filter(|name| !sensor::names().any(|n| n == **name)) {
+        let all: Vec<_> = sensor::names().collect();
+        let hint = tyndall_pbrt::did_you_mean(name, all.iter().copied())
+            .unwrap_or_else(|| format!("known are cie1931, {}", all.join(", ")));
+        return Err(refuse(p, "sensor", "must be a known sensor", format!("\"{name}\"")).hint(hint));
     }
     p.ignore("savefp16", "images are written in 32 bits");
     p.ignore("diagonal", "only a realistic camera has use for the film's size");
@@ -90,10 +101,17 @@ pub fn film(ctx: &Context<'_>, declared: &Declared, exposure: f64) -> Result<Fil
     }
     let band_edges = match declared.name.as_str() {
         "rgb" => Vec::new(),
+        "gbuffer" => {
+            if p.string("coordinatesystem", "camera")? != "world" {
+                p.ignore("coordinatesystem", "normals are in the scene's coordinates");
+            }
+            Vec::new()
+        }
         "spectral" => bands(p, ctx)?,
         other => {
-            let hint = "this version has rgb and spectral; --aov writes what gbuffer holds";
-            return Err(p.error(format!("film \"{other}\" is not supported")).hint(hint));
+            return Err(p
+                .error(format!("film \"{other}\" is not known"))
+                .hint("known are rgb, spectral and gbuffer"));
         }
     };
     let description = FilmDescription {
@@ -102,8 +120,10 @@ pub fn film(ctx: &Context<'_>, declared: &Declared, exposure: f64) -> Result<Fil
         filename: p.string_opt("filename")?.map(|t| t.as_str().to_owned()),
         space: color_space::name(&declared.color_space),
         imaging_ratio: Sensor::imaging_ratio(exposure, p.float64("iso", 100.0)?),
+        sensor: chosen,
         white_balance,
         band_edges,
+        gbuffer: declared.name.as_str() == "gbuffer",
     };
     description.channels().map_err(|e| at(p, e))?;
     ctx.finish(p, &KNOWN);

@@ -16,6 +16,7 @@ mod medium;
 mod overrides;
 mod phase;
 mod render;
+mod sensor;
 mod shape;
 mod spectrum;
 mod state;

@@ -6,7 +6,7 @@ use super::{
 };
 use tyndall_integrators::{Equiangular, Settings, pixel::Method};
 use tyndall_pbrt::{EntityKind, Error, OptionValue, ParamSet};
-use tyndall_transport::sampler::SamplerKind;
+use tyndall_transport::{light::Selection, sampler::SamplerKind};
 
 /// Samples per pixel, their kind and the seed.
 #[derive(Clone, Copy, Debug)]
@@ -76,6 +76,8 @@ pub struct IntegratorDescription {
     pub settings: Settings,
     /// Media are left out, as pbrt's `path` does.
     pub ignores_media: bool,
+    /// How lights are chosen.
+    pub selection: Selection,
 }
 
 /// What an integrator's name stands for: the method, and whether media are left out.
@@ -114,7 +116,9 @@ const KNOWN: [&str; 16] = [
 pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<IntegratorDescription, Error> {
     let Some(declared) = declared else {
         let (name, settings) = ("volpath".into(), Settings::default());
-        return Ok(IntegratorDescription { name, method: Method::Volpath, settings, ignores_media: false });
+        let method = Method::Volpath;
+        let selection = Selection::default();
+        return Ok(IntegratorDescription { name, method, settings, ignores_media: false, selection });
     };
     let p = &declared.params;
     let name = declared.name.as_str();
@@ -126,12 +130,26 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
         ctx.warnings
             .note(p.place(), format!("integrator \"{name}\" runs as volpath: the same mean with less noise"));
     }
-    for name in ["lightsampler", "samplebsdf", "samplelights"] {
-        p.ignore(name, "lights are chosen by power, directions by both techniques");
+    for name in ["samplebsdf", "samplelights"] {
+        p.ignore(name, "directions are chosen by both techniques");
     }
     let settings = settings(p)?;
+    let selection = selection(p)?;
     ctx.finish(p, &KNOWN);
-    Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media })
+    Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, selection })
+}
+
+fn selection(p: &ParamSet) -> Result<Selection, Error> {
+    match p.string("lightsampler", "bvh")?.as_str() {
+        // the exhaustive one weighs every light as the tree weighs its leaves
+        "bvh" | "exhaustive" => Ok(Selection::Tree),
+        "power" => Ok(Selection::Power),
+        "uniform" => Ok(Selection::Uniform),
+        other => {
+            let got = format!("\"{other}\"");
+            Err(refuse(p, "lightsampler", "must be bvh, power, uniform or exhaustive", got))
+        }
+    }
 }
 
 fn settings(p: &ParamSet) -> Result<Settings, Error> {

@@ -178,9 +178,15 @@ fn check_values(
     if low < 0.0 || !low.is_finite() {
         return Err(refuse(params, name, "must be >= 0 at every wavelength", low));
     }
-    if purpose == Purpose::Albedo && high > 1.0 {
-        return Err(refuse(params, name, "must be <= 1 at every wavelength", high)
-            .hint("a reflectance above 1 would create energy"));
+    // blackbodies are scaled to 1 at their peak, give or take a rounding
+    if purpose == Purpose::Albedo && high > 1.0 + 1e-5 {
+        let message = format!(
+            "{name}: expected a reflectance <= 1, got {high}; clamped at each wavelength, as in pbrt"
+        );
+        if ctx.strict {
+            return Err(params.error(message));
+        }
+        params.warn_at(name, message, ctx.warnings);
     }
     if !high.is_finite() {
         return Err(refuse(params, name, "must be finite", high));

@@ -48,6 +48,11 @@ impl ParamSet {
             let info = &param.info;
             let message = format!("{}: unused parameter \"{} {}\"", self.owner(), info.kind, info.name);
             let place = self.place_of(info.span);
+            if known.contains(&&*info.name) {
+                let hint = format!("\"{}\" is not asked for here, or in another type", info.name);
+                out.warn_hint(place, message, hint);
+                continue;
+            }
             match crate::keyword::did_you_mean(&info.name, known.iter().copied()) {
                 Some(hint) => out.warn_hint(place, message, hint),
                 None => out.warn(place, message),

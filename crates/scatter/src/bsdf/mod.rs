@@ -4,20 +4,24 @@
 //! built by value at each hit from the material's parameters at the path's wavelengths, which must be in range
 //! (reflectances in \[0, 1\], indices > 0): whoever reads or interpolates them clamps or refuses.
 
+pub mod coated;
 pub mod conductor;
 pub mod dielectric;
 pub mod diffuse;
 pub mod diffuse_transmission;
 pub mod flags;
 pub mod fresnel;
+pub mod hair;
 pub mod microfacet;
 pub mod thin_dielectric;
 
+pub use coated::Coated;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
 pub use diffuse_transmission::DiffuseTransmission;
 pub use flags::BsdfFlags;
+pub use hair::Hair;
 pub use microfacet::TrowbridgeReitz;
 pub use thin_dielectric::ThinDielectric;
 
@@ -87,6 +91,10 @@ pub enum Bsdf<const N: usize> {
     Dielectric(Dielectric<N>),
     /// A thin plate.
     ThinDielectric(ThinDielectric<N>),
+    /// A surface under a dielectric coat.
+    Coated(Coated<N>),
+    /// A fibre.
+    Hair(Hair<N>),
 }
 
 impl<const N: usize> Bsdf<N> {
@@ -99,6 +107,8 @@ impl<const N: usize> Bsdf<N> {
             Self::Conductor(b) => b.eval_pdf(wo, wi).0,
             Self::Dielectric(b) => b.eval_pdf(wo, wi).0,
             Self::ThinDielectric(_) => Spectrum::ZERO,
+            Self::Coated(b) => b.eval(wo, wi),
+            Self::Hair(b) => b.eval_pdf(wo, wi).0,
         }
     }
 
@@ -111,6 +121,8 @@ impl<const N: usize> Bsdf<N> {
             Self::Conductor(b) => b.eval_pdf(wo, wi).1,
             Self::Dielectric(b) => b.eval_pdf(wo, wi).1,
             Self::ThinDielectric(_) => Spectrum::ZERO,
+            Self::Coated(b) => b.pdf(wo, wi),
+            Self::Hair(b) => b.eval_pdf(wo, wi).1,
         }
     }
 
@@ -123,6 +135,8 @@ impl<const N: usize> Bsdf<N> {
             Self::Conductor(b) => b.eval_pdf(wo, wi),
             Self::Dielectric(b) => b.eval_pdf(wo, wi),
             Self::ThinDielectric(_) => (Spectrum::ZERO, Spectrum::ZERO),
+            Self::Coated(b) => (b.eval(wo, wi), b.pdf(wo, wi)),
+            Self::Hair(b) => b.eval_pdf(wo, wi),
         }
     }
 
@@ -138,6 +152,8 @@ impl<const N: usize> Bsdf<N> {
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u),
             Self::ThinDielectric(b) => b.sample(wo, uc),
+            Self::Coated(b) => b.sample(wo, uc, u),
+            Self::Hair(b) => b.sample(wo, uc, u),
         }
     }
 
@@ -150,7 +166,15 @@ impl<const N: usize> Bsdf<N> {
             Self::Conductor(b) => b.flags(),
             Self::Dielectric(b) => b.flags(),
             Self::ThinDielectric(_) => ThinDielectric::<N>::FLAGS,
+            Self::Coated(b) => b.flags(),
+            Self::Hair(_) => Hair::<N>::FLAGS,
         }
+    }
+
+    /// True where lanes of another wavelength than the hero's have no value: the path goes on with the hero alone.
+    #[inline(always)]
+    pub fn wants_hero_only(&self) -> bool {
+        matches!(self, Self::Coated(b) if b.is_dispersive())
     }
 
     /// True when [`eval`](Self::eval) is zero everywhere: light sampling is useless here.
@@ -174,6 +198,7 @@ impl<const N: usize> Bsdf<N> {
         match &mut self {
             Self::Conductor(b) => b.distribution = b.distribution.regularized(),
             Self::Dielectric(b) => *b = b.regularized(),
+            Self::Coated(b) => *b = b.regularized(),
             _ => {}
         }
         self

@@ -18,7 +18,7 @@ pub struct HenyeyGreenstein {
 
 /// `p` \[1/sr\] at `v = 1 - cos theta`.
 #[inline(always)]
-pub(super) fn p(g: f32, versine: f32) -> f32 {
+pub(crate) fn p(g: f32, versine: f32) -> f32 {
     // measured from the peak, both terms are positive: nothing cancels
     let from_peak = if g < 0.0 { 2.0 - versine } else { versine };
     let width = 1.0 - g.abs();
@@ -28,7 +28,7 @@ pub(super) fn p(g: f32, versine: f32) -> f32 {
 
 /// The deflection below which a fraction `1 - u` of the light goes (`u = 1` is forward).
 #[inline(always)]
-pub(super) fn sample(g: f32, u: f32) -> Deflection {
+pub(crate) fn sample(g: f32, u: f32) -> Deflection {
     let d = 1.0 - g + 2.0 * g * u;
     let (front, back) = ((1.0 - u) * (1.0 + g * u), u * (1.0 - g * (1.0 - u)));
     let r = (1.0 - g) / d;

@@ -2,13 +2,15 @@
 
 mod orthographic;
 mod perspective;
+mod spherical;
 
 pub use orthographic::Orthographic;
 pub use perspective::Perspective;
+pub use spherical::{Spherical, SphericalMapping};
 
 use crate::{TransportError, error::check};
-use tyndall_base::{Vec2, vec::vec2, warp};
-use tyndall_geometry::{Ray, Transform};
+use tyndall_base::{Vec2, Vec3, vec::vec2, warp};
+use tyndall_geometry::{Motion, Ray, Transform};
 
 /// Where on the film (pixels), on the lens (unit square) and within the shutter (0 to 1) a ray starts.
 #[derive(Clone, Copy, Debug)]
@@ -32,8 +34,10 @@ pub struct Projective {
     pub lens_radius: f32,
     /// Distance of the plane in focus \[m\].
     pub focal_distance: f32,
-    /// Camera space (x right, y up, z forward) to the scene.
+    /// Camera space (x right, y up, z forward) to the scene, when the shutter opens.
     pub to_world: Transform,
+    /// How that changes while the shutter is open.
+    pub motion: Option<Box<Motion>>,
 }
 
 impl Projective {
@@ -63,6 +67,20 @@ impl Projective {
         vec2(x0 + u * (x1 - x0), y1 - v * (y1 - y0))
     }
 
+    /// The ray from `o` along `d`, both in camera space.
+    #[inline(always)]
+    fn place(&self, o: Vec3, d: Vec3, time: f32) -> Ray {
+        let moved;
+        let to_world = match &self.motion {
+            None => &self.to_world,
+            Some(motion) => {
+                moved = motion.at(time);
+                &moved
+            }
+        };
+        Ray { time, ..Ray::new(to_world.point(o), to_world.vector(d).normalize()) }
+    }
+
     #[inline(always)]
     fn lens_point(&self, lens: Vec2) -> Vec2 {
         warp::sample_concentric_disk([lens.x, lens.y]) * self.lens_radius
@@ -76,6 +94,8 @@ pub enum Camera {
     Perspective(Perspective),
     /// Parallel projection.
     Orthographic(Orthographic),
+    /// All directions.
+    Spherical(Spherical),
 }
 
 impl Camera {
@@ -85,6 +105,7 @@ impl Camera {
         match self {
             Self::Perspective(c) => c.sample_ray(sample),
             Self::Orthographic(c) => c.sample_ray(sample),
+            Self::Spherical(c) => c.sample_ray(sample),
         }
     }
 
@@ -113,6 +134,7 @@ impl Camera {
         match self {
             Self::Perspective(c) => &c.projective,
             Self::Orthographic(c) => &c.projective,
+            Self::Spherical(c) => &c.projective,
         }
     }
 
@@ -120,6 +142,7 @@ impl Camera {
         match self {
             Self::Perspective(c) => &mut c.projective,
             Self::Orthographic(c) => &mut c.projective,
+            Self::Spherical(c) => &mut c.projective,
         }
     }
 }

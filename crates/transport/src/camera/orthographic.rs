@@ -30,8 +30,6 @@ impl Orthographic {
             o += vec3(lens.x, lens.y, 0.0);
             d = focus - o;
         }
-        let mut ray = Ray::new(c.to_world.point(o), c.to_world.vector(d).normalize());
-        ray.time = sample.time;
-        ray
+        c.place(o, d, sample.time)
     }
 }

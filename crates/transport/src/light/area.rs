@@ -1,9 +1,13 @@
 //! `diffuse` area light: an emitting primitive with the same radiance in all directions of its side.
 //!
-//! L(y, d) = Le where d leaves on the side of the surface normal (on both sides when `two_sided`).
+//! L(y, d) = Le where d leaves on the side of the surface normal (on both sides when `two_sided`), times the colour of
+//! an image at the point's texture coordinates if there is one. A surface that is seen with the probability `alpha` emits
+//! in that share: paths that meet it by chance see it that often, those that choose it take alpha as a weight.
 
 use super::{LiSample, PositionSample, Target};
-use tyndall_base::Vec3;
+use crate::texture::{FloatTexture, ImageMap, TextureContext};
+use std::sync::Arc;
+use tyndall_base::{Vec3, vec::vec2};
 use tyndall_geometry::{Accel, Hit, SurfacePoint};
 use tyndall_spectral::{Emission, Spectrum, Wavelengths};
 
@@ -20,6 +24,19 @@ pub struct AreaLight {
     pub emission: Emission,
     /// Emits on both sides.
     pub two_sided: bool,
+    /// What is rare.
+    pub extra: Option<Arc<AreaExtra>>,
+}
+
+/// What few area lights have.
+#[derive(Clone, Debug)]
+pub struct AreaExtra {
+    /// Radiance by texture coordinates, instead of the mean that the light's emission then is.
+    pub image: Option<ImageMap>,
+    /// Probability that the surface is seen, where it varies.
+    pub alpha: Option<FloatTexture>,
+    /// No ray meets the surface (its alpha is 0), but it emits, as in pbrt.
+    pub invisible: bool,
 }
 
 impl AreaLight {
@@ -28,11 +45,42 @@ impl AreaLight {
     pub fn radiance<const N: usize>(
         &self,
         n: Vec3,
-        _uv: [f32; 2],
+        uv: [f32; 2],
         d: Vec3,
         w: &Wavelengths<N>,
     ) -> Spectrum<N> {
-        if self.two_sided || n.dot(d) > 0.0 { self.emission.sample(w) } else { Spectrum::ZERO }
+        if !(self.two_sided || n.dot(d) > 0.0) {
+            return Spectrum::ZERO;
+        }
+        match &self.extra {
+            None => self.emission.sample(w),
+            Some(extra) => self.coloured(extra, n, uv, w),
+        }
+    }
+
+    #[inline(never)]
+    fn coloured<const N: usize>(
+        &self,
+        extra: &AreaExtra,
+        n: Vec3,
+        uv: [f32; 2],
+        w: &Wavelengths<N>,
+    ) -> Spectrum<N> {
+        let Some(image) = &extra.image else { return self.emission.sample(w) };
+        image.spectrum(&TextureContext { p: Vec3::ZERO, n, uv: vec2(uv[0], uv[1]) }, w)
+    }
+
+    /// The share of the surface that emits at a point: a weight for whoever chose the point.
+    #[inline(always)]
+    pub fn share(&self, p: Vec3, n: Vec3, uv: [f32; 2]) -> f32 {
+        let alpha = self.extra.as_ref().and_then(|e| e.alpha.as_ref());
+        alpha.map_or(1.0, |a| a.eval(&TextureContext { p, n, uv: vec2(uv[0], uv[1]) }).clamp(0.0, 1.0))
+    }
+
+    /// Whether light sampling alone finds it.
+    #[inline(always)]
+    pub fn is_invisible(&self) -> bool {
+        self.extra.as_ref().is_some_and(|e| e.invisible)
     }
 
     /// See [`super::Light::sample_li`]: a direction in the solid angle that the primitive subtends.
@@ -50,10 +98,20 @@ impl AreaLight {
         if !wi.is_finite() || s.pdf.is_nan() || s.pdf <= 0.0 {
             return None;
         }
-        let l = self.radiance(s.n, [s.uv.x, s.uv.y], -wi, w);
+        let uv = [s.uv.x, s.uv.y];
+        let mut l = self.radiance(s.n, uv, -wi, w);
+        if self.extra.is_some() {
+            l *= self.share(s.p, s.n, uv);
+        }
         let target =
             Target { p: s.p, rounding: s.rounding, n: s.n, pdf_area: group.pdf_area_of(self.prim, from, &s) };
-        (!l.is_zero()).then_some(LiSample { l, wi, target: Some(target), pdf: s.pdf, delta: false })
+        (!l.is_zero()).then_some(LiSample {
+            l,
+            wi,
+            target: Some(target),
+            pdf: s.pdf,
+            delta: self.is_invisible(),
+        })
     }
 
     /// See [`super::Light::pdf_li`].

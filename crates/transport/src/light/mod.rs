@@ -5,19 +5,25 @@
 //! ray the light will be seen from.
 
 mod area;
+mod bounds;
 mod distant;
+mod goniometric;
 mod image;
 mod infinite;
 mod point;
+mod projection;
 mod set;
 mod spot;
+mod tree;
 
-pub use area::AreaLight;
+pub use area::{AreaExtra, AreaLight};
 pub use distant::DistantLight;
+pub use goniometric::{GoniometricLight, PhotometricWeb, Profile};
 pub use image::{EnvironmentImage, ImageInfiniteLight, RgbEmission, sphere_to_square, square_to_sphere};
 pub use infinite::UniformInfiniteLight;
 pub use point::PointLight;
-pub use set::{LightSet, Selected};
+pub use projection::ProjectionLight;
+pub use set::{LightSet, Selected, Selection};
 pub use spot::SpotLight;
 
 use tyndall_base::Vec3;
@@ -91,6 +97,10 @@ pub enum Light {
     Infinite(UniformInfiniteLight),
     /// An environment map.
     Image(ImageInfiniteLight),
+    /// A point whose intensity depends on the direction.
+    Goniometric(Box<GoniometricLight>),
+    /// A point that projects an image.
+    Projection(Box<ProjectionLight>),
 }
 
 impl Light {
@@ -110,6 +120,8 @@ impl Light {
             Self::Distant(l) => Some(l.sample_li(w)),
             Self::Infinite(l) => Some(l.sample_li(u, w)),
             Self::Image(l) => l.sample_li(u, w),
+            Self::Goniometric(l) => l.sample_li(p, w),
+            Self::Projection(l) => l.sample_li(p, w),
         }
     }
 
@@ -121,6 +133,8 @@ impl Light {
             Self::Area(l) => Some(l.sample_position(accel, u)),
             Self::Point(l) => Some(at(l.p)),
             Self::Spot(l) => Some(at(l.p)),
+            Self::Goniometric(l) => Some(at(l.p)),
+            Self::Projection(l) => Some(at(l.p())),
             Self::Distant(_) | Self::Infinite(_) | Self::Image(_) => None,
         }
     }
@@ -134,9 +148,11 @@ impl Light {
         w: &Wavelengths<N>,
     ) -> Spectrum<N> {
         match self {
-            Self::Area(l) => l.radiance(y.target.n, y.uv, d, w),
+            Self::Area(l) => l.radiance(y.target.n, y.uv, d, w) * l.share(y.target.p, y.target.n, y.uv),
             Self::Point(l) => l.intensity.sample(w),
             Self::Spot(l) => l.intensity_along(d, w),
+            Self::Goniometric(l) => l.intensity_along(d, w),
+            Self::Projection(l) => l.intensity_along(d, w),
             Self::Distant(_) | Self::Infinite(_) | Self::Image(_) => Spectrum::ZERO,
         }
     }
@@ -146,7 +162,11 @@ impl Light {
     pub fn pdf_li(&self, accel: &Accel, p: Vec3, wi: Vec3, target: &Target) -> f32 {
         match self {
             Self::Area(l) => l.pdf_li(accel, p, target),
-            Self::Point(_) | Self::Spot(_) | Self::Distant(_) => 1.0,
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Distant(_)
+            | Self::Goniometric(_)
+            | Self::Projection(_) => 1.0,
             Self::Infinite(_) | Self::Image(_) => self.pdf_infinite(wi),
         }
     }
@@ -192,14 +212,19 @@ impl Light {
         }
     }
 
-    /// True when no ray of chance can meet the light.
+    /// True for points and single directions.
     pub fn is_delta(&self) -> bool {
-        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Distant(_))
+        !matches!(self, Self::Area(_) | Self::Infinite(_) | Self::Image(_))
+    }
+
+    /// True when no ray of chance can meet the light.
+    pub fn is_hidden(&self) -> bool {
+        self.is_delta() || matches!(self, Self::Area(l) if l.is_invisible())
     }
 
     /// True for lights of finite extent.
     pub fn is_local(&self) -> bool {
-        matches!(self, Self::Area(_) | Self::Point(_) | Self::Spot(_))
+        !matches!(self, Self::Distant(_) | Self::Infinite(_) | Self::Image(_))
     }
 
     /// Emitted power over the light's emission spectrum: area times solid angle (times pi, the projected one).
@@ -210,6 +235,8 @@ impl Light {
             Self::Area(l) => PI * f64::from(l.area) * l.sides(),
             Self::Point(_) => 4.0 * PI,
             Self::Spot(l) => l.solid_angle(),
+            Self::Goniometric(l) => l.solid_angle(),
+            Self::Projection(l) => l.solid_angle(),
             Self::Distant(_) => disk,
             Self::Infinite(_) | Self::Image(_) => 4.0 * PI * disk,
         }
@@ -224,6 +251,8 @@ impl Light {
             Self::Distant(l) => &l.emission,
             Self::Infinite(l) => &l.emission,
             Self::Image(l) => l.mean_emission(),
+            Self::Goniometric(l) => &l.intensity,
+            Self::Projection(l) => l.mean_emission(),
         }
     }
 }

@@ -1,12 +1,29 @@
-//! All lights of a scene and the choice among them: in proportion to power, with a floor for the weak.
+//! All lights of a scene and the choice among them: in proportion to power, with a floor for the weak, or with a tree
+//! over those of finite extent that knows where they are.
 
-use super::Light;
+use super::{Light, bounds::LightBounds, tree::LightTree};
 use crate::ids::LightId;
-use tyndall_base::distribution::Alias;
+use tyndall_base::{Vec3, distribution::Alias};
+use tyndall_geometry::Accel;
 use tyndall_spectral::Emission;
 
 /// Share of the choice that ignores power, so that a light whose power the weights misjudge is still found.
 const UNIFORM_SHARE: f64 = 0.02;
+
+/// With fewer lights of finite extent than this a tree does not pay.
+const FEW: usize = 3;
+
+/// How lights are chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Selection {
+    /// By what they may send to the point that is lit.
+    #[default]
+    Tree,
+    /// By power.
+    Power,
+    /// All alike.
+    Uniform,
+}
 
 /// A light that was chosen and the probability of the choice.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +41,16 @@ pub struct LightSet {
     infinite: Vec<LightId>,
     all: Option<Choice>,
     local: Option<Choice>,
+    /// The tree over the local ones, the choice among the others, and the probability of the others.
+    spatial: Option<Spatial>,
+}
+
+#[derive(Clone, Debug)]
+struct Spatial {
+    tree: LightTree,
+    is_local: Vec<bool>,
+    far: Option<Choice>,
+    far_share: f32,
 }
 
 #[derive(Clone, Debug)]
@@ -65,7 +92,64 @@ impl LightSet {
             .collect();
         let all = Choice::new(&powers, |_| true);
         let local = Choice::new(&powers, |i| lights[i].is_local());
-        Self { lights, infinite, all, local }
+        Self { lights, infinite, all, local, spatial: None }
+    }
+
+    /// The same lights, chosen by `selection`; `weigh` as for [`Self::new`].
+    pub fn choosing(
+        mut self,
+        selection: Selection,
+        accel: &Accel,
+        scene_radius: f32,
+        weigh: &dyn Fn(&Emission) -> f64,
+    ) -> Self {
+        let powers: Vec<f64> =
+            self.lights.iter().map(|l| l.extent(scene_radius) * weigh(l.spectrum())).collect();
+        match selection {
+            Selection::Power => {}
+            Selection::Uniform => {
+                let even: Vec<f64> = powers.iter().map(|p| f64::from(u8::from(*p > 0.0))).collect();
+                self.all = Choice::new(&even, |_| true);
+            }
+            Selection::Tree => self.spatial = self.spatial(accel, &powers),
+        }
+        self
+    }
+
+    fn spatial(&self, accel: &Accel, powers: &[f64]) -> Option<Spatial> {
+        let bounds = |(i, l): (usize, &Light)| Some((i as u32, LightBounds::of(l, accel, powers[i])?));
+        let local: Vec<_> = self.lights.iter().enumerate().filter_map(bounds).collect();
+        if local.len() < FEW {
+            return None;
+        }
+        let is_local: Vec<bool> = self.lights.iter().map(Light::is_local).collect();
+        let sum = |local: bool| -> f64 {
+            powers.iter().zip(&is_local).filter(|(_, l)| **l == local).map(|(p, _)| *p).sum()
+        };
+        let (near, beyond) = (sum(true), sum(false));
+        let far = Choice::new(powers, |i| !is_local[i]);
+        // neither side is starved where power misleads: a sun outside a lit room, a candle in the sun
+        let share = if near > 0.0 { (beyond / (near + beyond)).clamp(0.2, 0.8) } else { 1.0 };
+        let far_share = if far.is_some() { share as f32 } else { 0.0 };
+        Some(Spatial { tree: LightTree::new(local, self.lights.len()), is_local, far, far_share })
+    }
+
+    /// Chooses a light for the point `p` with normal `n`, zero for none.
+    #[inline(always)]
+    pub fn select_at(&self, p: Vec3, n: Vec3, u: f32) -> Option<Selected> {
+        match &self.spatial {
+            None => self.select(u),
+            Some(spatial) => spatial.select(p, n, u),
+        }
+    }
+
+    /// Probability with which [`Self::select_at`] returns `id` for `p` and `n`.
+    #[inline(always)]
+    pub fn pmf_at(&self, p: Vec3, n: Vec3, id: LightId) -> f32 {
+        match &self.spatial {
+            None => self.pmf(id),
+            Some(spatial) => spatial.pmf(p, n, id),
+        }
     }
 
     /// The light `id`.
@@ -122,5 +206,123 @@ impl LightSet {
     #[inline(always)]
     pub fn pmf_local(&self, id: LightId) -> f32 {
         self.local.as_ref().map_or(0.0, |c| c.pmf[id.index()])
+    }
+}
+
+impl Spatial {
+    #[inline(never)]
+    fn select(&self, p: Vec3, n: Vec3, u: f32) -> Option<Selected> {
+        if u < self.far_share {
+            let far = self.far.as_ref()?.select(u / self.far_share);
+            return Some(Selected { pmf: far.pmf * self.far_share, ..far });
+        }
+        let rest = 1.0 - self.far_share;
+        let u = ((u - self.far_share) / rest).clamp(0.0, 1.0 - f32::EPSILON);
+        let (light, pmf) = self.tree.select(p, n, u)?;
+        Some(Selected { id: LightId(light), pmf: pmf * rest })
+    }
+
+    #[inline(never)]
+    fn pmf(&self, p: Vec3, n: Vec3, id: LightId) -> f32 {
+        if self.is_local[id.index()] {
+            return self.tree.pmf(p, n, id.0) * (1.0 - self.far_share);
+        }
+        self.far.as_ref().map_or(0.0, |far| far.pmf[id.index()] * self.far_share)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::{AreaLight, DistantLight, PointLight, SpotLight};
+    use tyndall_base::{rng::Pcg32, vec::vec3};
+    use tyndall_geometry::{BuildOptions, Shape, ShapeGroup, TriangleMesh};
+    use tyndall_spectral::Curve;
+
+    /// Fifty points, spots and triangles all over a cube, and a sun.
+    fn scene() -> (Accel, LightSet) {
+        let mut rng = Pcg32::new(5, 5);
+        let mut at = || vec3(rng.next_f32(), rng.next_f32(), rng.next_f32()) * 10.0;
+        let mut corners = Vec::new();
+        for _ in 0..20 {
+            let p = at();
+            corners.extend([p, p + vec3(0.3, 0.0, 0.1), p + vec3(0.0, 0.2, 0.3)]);
+        }
+        let indices = (0..20u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let mesh = TriangleMesh::new(indices, corners).expect("valid");
+        let group = ShapeGroup::from(Shape::Triangles(mesh));
+        let accel = Accel::build(vec![group], &[], Vec::new(), &BuildOptions::default()).expect("valid");
+        let emission = || Curve::ONE.into();
+        let mut lights: Vec<Light> = (0..20)
+            .map(|prim| {
+                let area = accel.group(0).area(prim);
+                let two_sided = prim % 3 == 0;
+                Light::Area(AreaLight { shape: 0, prim, area, emission: emission(), two_sided, extra: None })
+            })
+            .collect();
+        for i in 0..30 {
+            let p = at();
+            lights.push(if i % 2 == 0 {
+                Light::Point(PointLight { p, intensity: emission() })
+            } else {
+                let axis = at() - p;
+                Light::Spot(SpotLight::new(p, axis, emission(), 40.0, 10.0).expect("valid"))
+            });
+        }
+        lights.push(Light::Distant(DistantLight { towards: vec3(0.0, 0.0, 1.0), emission: emission() }));
+        let set = LightSet::new(lights, 10.0, &|_| 1.0);
+        let set = set.choosing(Selection::Tree, &accel, 10.0, &|_| 1.0);
+        (accel, set)
+    }
+
+    #[test]
+    fn probabilities_add_up_to_what_is_drawn() {
+        let (_, set) = scene();
+        let mut rng = Pcg32::new(9, 9);
+        for k in 0..20 {
+            let p = vec3(rng.next_f32(), rng.next_f32(), rng.next_f32()) * 12.0 - Vec3::splat(1.0);
+            let n = if k % 2 == 0 { Vec3::ZERO } else { vec3(0.6, 0.0, 0.8) };
+            let pmf: Vec<f64> =
+                (0..set.len()).map(|i| f64::from(set.pmf_at(p, n, LightId(i as u32)))).collect();
+            let total: f64 = pmf.iter().sum();
+            assert!(total < 1.0 + 1e-4, "{total}");
+            let draws = 20_000;
+            let mut counts = vec![0.0; set.len()];
+            for _ in 0..draws {
+                if let Some(s) = set.select_at(p, n, rng.next_f32()) {
+                    counts[s.id.index()] += 1.0;
+                    assert!((f64::from(s.pmf) / pmf[s.id.index()] - 1.0).abs() < 1e-3);
+                }
+            }
+            for (count, pmf) in counts.iter().zip(&pmf) {
+                let sigma = (f64::from(draws) * pmf * (1.0 - pmf).max(0.0)).sqrt();
+                assert!((count - pmf * f64::from(draws)).abs() < 5.0 * sigma + 3.0, "{count} {pmf}");
+            }
+        }
+    }
+
+    /// Whatever can send light to a point has a probability there.
+    #[test]
+    fn no_light_is_lost() {
+        let (accel, set) = scene();
+        let mut rng = Pcg32::new(2, 9);
+        let w = tyndall_spectral::Wavelengths::<1>::continuum([550.0], [1.0]);
+        for _ in 0..300 {
+            let p = vec3(rng.next_f32(), rng.next_f32(), rng.next_f32()) * 10.0;
+            for (i, light) in set.iter().enumerate() {
+                if light.sample_li(&accel, p, rng.next_2d(), &w).is_some() {
+                    assert!(set.pmf_at(p, Vec3::ZERO, LightId(i as u32)) > 0.0, "light {i} from {p:?}");
+                }
+            }
+        }
+    }
+
+    /// Near a lamp it is chosen much more often than by power.
+    #[test]
+    fn near_lights_are_preferred() {
+        let (_, set) = scene();
+        let Light::Point(lamp) = set.get(LightId(20)) else { panic!("the first point light") };
+        let p = lamp.p + vec3(0.05, 0.0, 0.0);
+        assert!(set.pmf_at(p, Vec3::ZERO, LightId(20)) > 5.0 * set.pmf(LightId(20)));
     }
 }

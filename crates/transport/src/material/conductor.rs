@@ -46,9 +46,14 @@ impl ConductorMaterial {
         Spectrum::from_fn(|i| fresnel::fresnel_conductor(1.0, eta[i], k[i]))
     }
 
+    /// The metal at `at`.
+    pub fn conductor<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Conductor<N> {
+        let (eta, k) = self.index(at, w);
+        Conductor { eta, k, distribution: self.roughness.distribution(at) }
+    }
+
     /// The BSDF at `at`.
     pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<N> {
-        let (eta, k) = self.index(at, w);
-        Bsdf::Conductor(Conductor { eta, k, distribution: self.roughness.distribution(at) })
+        Bsdf::Conductor(self.conductor(at, w))
     }
 }

@@ -129,6 +129,11 @@ impl ImageMap {
         self.rule.sample(rgb, w)
     }
 
+    /// Three channels at `at` as they are.
+    pub fn vector(&self, at: &TextureContext) -> [f32; 3] {
+        self.filtered(at)
+    }
+
     fn filtered(&self, at: &TextureContext) -> [f32; 3] {
         let st = self.mapping.st(at);
         let (x, y) = (st.x * self.texels.width as f32, (1.0 - st.y) * self.texels.height as f32);

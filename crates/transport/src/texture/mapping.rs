@@ -8,7 +8,7 @@ use tyndall_geometry::Transform;
 pub struct TextureContext {
     /// Point \[m\].
     pub p: Vec3,
-    /// Shading normal.
+    /// Geometric normal.
     pub n: Vec3,
     /// Parametric coordinates.
     pub uv: Vec2,

@@ -2,9 +2,15 @@
 
 mod imagemap;
 mod mapping;
+mod marble;
+mod noise;
+mod weight;
 
 pub use imagemap::{ImageMap, Lookup, RgbKind, RgbRule, Texels, Wrap};
 pub use mapping::{Mapping, TextureContext};
+pub use marble::Marble;
+pub use noise::{NoiseKind, NoiseTexture};
+pub use weight::Weight;
 
 use std::sync::Arc;
 use tyndall_spectral::{Curve, Spectrum, Wavelengths};
@@ -16,8 +22,10 @@ pub enum FloatTexture {
     Constant(f32),
     /// Product of two.
     Scale(Arc<(Self, Self)>),
-    /// `(1 - amount) a + amount b`, in the order `(a, b, amount)`.
-    Mix(Arc<(Self, Self, Self)>),
+    /// `(1 - w) a + w b`, in the order `(a, b, w)`.
+    Mix(Arc<(Self, Self, Weight)>),
+    /// Sums of gradient noise.
+    Noise(Arc<NoiseTexture>),
     /// First channel of an image.
     Image(Arc<ImageMap>),
 }
@@ -28,10 +36,12 @@ impl FloatTexture {
         match self {
             Self::Constant(v) => *v,
             Self::Scale(t) => t.0.eval(at) * t.1.eval(at),
-            Self::Mix(t) => {
-                let amount = t.2.eval(at);
-                (1.0 - amount) * t.0.eval(at) + amount * t.1.eval(at)
-            }
+            Self::Mix(t) => match t.2.eval(at) {
+                0.0 => t.0.eval(at),
+                1.0 => t.1.eval(at),
+                w => (1.0 - w) * t.0.eval(at) + w * t.1.eval(at),
+            },
+            Self::Noise(noise) => noise.eval(at),
             Self::Image(image) => image.float(at),
         }
     }
@@ -49,8 +59,10 @@ pub enum SpectrumTexture {
     Constant(Curve),
     /// A spectrum texture times a float texture.
     Scale(Arc<(Self, FloatTexture)>),
-    /// `(1 - amount) a + amount b`, in the order `(a, b, amount)`.
-    Mix(Arc<(Self, Self, FloatTexture)>),
+    /// `(1 - w) a + w b`, in the order `(a, b, w)`.
+    Mix(Arc<(Self, Self, Weight)>),
+    /// Veined stone.
+    Marble(Arc<Marble>),
     /// An RGB image whose texels are turned into spectra.
     Image(Arc<ImageMap>),
 }
@@ -69,10 +81,12 @@ impl SpectrumTexture {
         match self {
             Self::Constant(c) => c.sample(w),
             Self::Scale(t) => t.0.eval(at, w) * t.1.eval(at),
-            Self::Mix(t) => {
-                let amount = t.2.eval(at);
-                t.0.eval(at, w) * (1.0 - amount) + t.1.eval(at, w) * amount
-            }
+            Self::Mix(t) => match t.2.eval(at) {
+                0.0 => t.0.eval(at, w),
+                1.0 => t.1.eval(at, w),
+                amount => t.0.eval(at, w) * (1.0 - amount) + t.1.eval(at, w) * amount,
+            },
+            Self::Marble(marble) => marble.eval(at, w),
             Self::Image(image) => image.spectrum(at, w),
         }
     }

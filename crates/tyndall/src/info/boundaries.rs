@@ -87,7 +87,7 @@ fn side(boundary: &Boundary, leaves: bool) -> MediumId {
 
 /// Straight on through boundaries and, half of the time, through what transmits; else diffusely back.
 fn onwards(scene: &Scene, isect: &Interaction<'_>, ray: &Ray, rng: &mut Pcg32) -> tyndall_base::Vec3 {
-    let material = isect.binding.material;
+    let material = isect.material;
     if material.is_interface() {
         return ray.d;
     }

@@ -48,6 +48,8 @@ const fn kind(light: &Light) -> &'static str {
         Light::Distant(_) => "distant",
         Light::Infinite(_) => "infinite",
         Light::Image(_) => "infinite, image",
+        Light::Goniometric(_) => "goniometric",
+        Light::Projection(_) => "projection",
     }
 }
 
