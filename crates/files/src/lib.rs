@@ -10,5 +10,6 @@ pub mod error;
 pub mod image;
 mod limits;
 pub mod mesh;
+pub mod netcdf;
 
 pub use error::{FileError, Place, Result};
