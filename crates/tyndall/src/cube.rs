@@ -83,7 +83,10 @@ fn variables(pixels: &Pixels, bands: usize, absolute: bool, kind: Kind) -> Vec<V
             out.push(variable(&cube_name(&layer), unit, planes, true, kind));
         }
     }
-    for channel in ordered(pixels).into_iter().filter(|c| !used.contains(&c.name)) {
+    // files sort channels by name; the order here is always the same
+    let mut rest = ordered(pixels);
+    rest.sort_by_key(|c| statistics::NAMES.iter().position(|n| *n == c.name));
+    for channel in rest.into_iter().filter(|c| !used.contains(&c.name)) {
         let unit = table::unit(&channel.name, absolute);
         out.push(variable(&identifier(&channel.name), unit, vec![&channel.data], false, kind));
     }
