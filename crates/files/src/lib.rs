@@ -10,6 +10,7 @@ pub mod error;
 pub mod image;
 mod limits;
 pub mod mesh;
+pub mod netcdf;
 pub mod photometry;
 
 pub use error::{FileError, Place, Result};

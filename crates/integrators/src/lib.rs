@@ -7,6 +7,7 @@ pub mod analog;
 pub mod direct;
 pub mod equiangular;
 pub mod glow;
+pub mod isa;
 pub mod layers;
 pub mod medium;
 pub mod observer;

@@ -15,6 +15,7 @@
 #![forbid(unsafe_code)]
 
 pub mod camera_matrices;
+pub mod cube;
 pub mod diff;
 pub mod error;
 pub mod existing;
@@ -28,6 +29,7 @@ pub mod plan;
 pub mod provenance;
 pub mod record;
 pub mod render;
+pub mod statistics;
 pub mod table;
 pub mod trace;
 pub mod units;

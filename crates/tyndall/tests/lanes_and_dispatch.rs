@@ -5,6 +5,7 @@ mod common;
 use common::{Bands, Run, develop, judge::Family, scene};
 use tyndall_film::ErrorMode;
 use tyndall_geometry::Dispatch;
+use tyndall_integrators::isa::Isa;
 
 const BANDS: Bands = Bands { count: 16 };
 
@@ -61,13 +62,30 @@ fn every_instruction_set_gives_the_same_bits() {
     let text = everything();
     let base = || Run { errors: ErrorMode::Conservative, ..Run::new(BANDS, 256) };
     for run in [base().hero(1), base().hero(4), base(), base().hero(16), base().opow(), base().fixed_set()] {
-        let (fast, portable) = (run.clone(), Run { dispatch: Dispatch::Portable, ..run });
-        let (a, b) = (fast.plan(&text), portable.plan(&text));
-        assert!(!a.pass.portable && b.pass.portable);
-        assert_eq!(develop(&a), develop(&b), "{:?}", portable.spectral);
+        let (plain, others) = (with(&run, Dispatch::Portable).plan(&text), sets());
+        let expected = develop(&plain);
+        for set in others {
+            let plan = with(&run, set).plan(&text);
+            assert_eq!(Some(plan.pass.isa), Isa::choose(set));
+            assert_eq!(develop(&plan), expected, "{set:?} {:?}", run.spectral);
+        }
     }
     let lit_by_area = text.lines().filter(|l| !l.contains("\"point\"")).collect::<Vec<_>>().join("\n");
     let analog = base().analog();
-    let portable = Run { dispatch: Dispatch::Portable, ..analog.clone() };
-    assert_eq!(analog.develop(&lit_by_area), portable.develop(&lit_by_area));
+    let expected = with(&analog, Dispatch::Portable).develop(&lit_by_area);
+    for set in sets() {
+        assert_eq!(with(&analog, set).develop(&lit_by_area), expected, "{set:?}");
+    }
+}
+
+fn with(run: &Run, dispatch: Dispatch) -> Run {
+    Run { dispatch, ..run.clone() }
+}
+
+/// The instruction sets that this processor has, beside the portable one; those that it has not are told.
+fn sets() -> Vec<Dispatch> {
+    let (have, lack): (Vec<_>, Vec<_>) =
+        [Dispatch::Detect, Dispatch::Avx2, Dispatch::Avx512].into_iter().partition(|d| d.is_available());
+    lack.iter().for_each(|d| println!("{d:?}: this processor does not have it, nothing was compared"));
+    have
 }

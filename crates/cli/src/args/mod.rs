@@ -20,8 +20,8 @@ pub use diff::DiffArgs;
 pub use info::InfoArgs;
 pub use merge::MergeArgs;
 pub use render::{
-    BUILT_IN_SCENE, CheckpointFile, ErrorMode, Integrator, LightArgs, Names, OutputArgs, RenderArgs,
-    ReplayArgs, RunArgs, SpectralStrategy, StopArgs, WavelengthPdf, WavelengthRule,
+    BUILT_IN_SCENE, CheckpointFile, ErrorMode, InstructionSet, Integrator, LightArgs, Names, OutputArgs,
+    RenderArgs, ReplayArgs, RunArgs, SpectralStrategy, StopArgs, WavelengthPdf, WavelengthRule,
 };
 pub use scene::SceneArgs;
 

@@ -3,6 +3,7 @@
 mod completions;
 mod develop;
 mod diff;
+mod doubts;
 mod info;
 mod merge;
 mod print;
