@@ -23,6 +23,7 @@ pub mod image;
 pub mod info;
 pub mod memory;
 pub mod options;
+pub mod page;
 pub mod picture;
 pub mod plan;
 pub mod provenance;
