@@ -26,12 +26,14 @@ pub mod options;
 pub mod page;
 pub mod picture;
 pub mod plan;
+pub mod plot;
 pub mod provenance;
 pub mod record;
 pub mod render;
 pub mod table;
 pub mod trace;
 pub mod units;
+pub mod validate;
 
 pub use error::Error;
 pub use image::Image;

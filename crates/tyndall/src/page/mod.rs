@@ -14,11 +14,13 @@
 
 mod chart;
 mod document;
+mod panels;
 mod picture;
 mod table;
 
 pub use chart::{Axis, Chart, Series, Stroke, colour};
 pub use document::Document;
+pub use panels::side_by_side;
 pub use picture::png_image;
 pub use table::Table;
 
