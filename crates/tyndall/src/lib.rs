@@ -24,8 +24,10 @@ pub mod image;
 pub mod info;
 pub mod memory;
 pub mod options;
+pub mod page;
 pub mod picture;
 pub mod plan;
+pub mod plot;
 pub mod provenance;
 pub mod record;
 pub mod render;
@@ -33,6 +35,7 @@ pub mod statistics;
 pub mod table;
 pub mod trace;
 pub mod units;
+pub mod validate;
 
 pub use error::Error;
 pub use image::Image;

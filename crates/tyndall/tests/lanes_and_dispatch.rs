@@ -7,7 +7,7 @@ use tyndall_film::ErrorMode;
 use tyndall_geometry::Dispatch;
 use tyndall_integrators::isa::Isa;
 
-const BANDS: Bands = Bands { count: 16 };
+const BANDS: Bands = Bands::new(16);
 
 /// Coloured fog around a dispersive glass ball over a coloured floor, a small lamp, a point light and a dim sky.
 fn everything() -> String {
@@ -21,13 +21,12 @@ fn everything() -> String {
         &of(7, 0.3, 1.0),
         &scene::asymmetry(&BANDS, &of(3, -0.5, 0.8)),
     );
-    let glass = format!("Material \"dielectric\"{}{}", scene::STEP, BANDS.step("eta", &of(9, 1.3, 1.7)));
-    let floor =
-        format!("Material \"diffuse\"{}{}\n", scene::STEP, BANDS.step("reflectance", &of(11, 0.05, 0.9)));
+    let glass = scene::glass(&BANDS, &of(9, 1.3, 1.7));
+    let floor = scene::diffuse(&BANDS, &of(11, 0.05, 0.9));
     let lamp = format!(
         "AttributeBegin\nAreaLightSource \"diffuse\" \"bool absolute\" true \"bool twosided\" true{}{}\nTranslate 0 1.5 1\n\
          Shape \"disk\" \"float radius\" 0.4\nAttributeEnd\n",
-        scene::STEP,
+        BANDS.interpolation(),
         BANDS.step("L", &of(13, 1.0, 6.0))
     );
     let point = "LightSource \"point\" \"bool absolute\" true \"spectrum I\" [300 2 900 1] \"point3 from\" [1.5 0.5 0.5]\n";
@@ -36,7 +35,7 @@ fn everything() -> String {
     format!(
         "{}WorldBegin\n{fog}{sky}{point}{floor}{}AttributeBegin\nMediumInterface \"fog\" \"\"\n{}\n{fog_box}AttributeEnd\n{lamp}\
          {glass}\nTranslate 0 0 -0.4\nScale 0.5 0.5 0.5\nMediumInterface \"\" \"fog\"\nShape \"sphere\"\n",
-        scene::camera([2.0, -4.0, 4.0], [0.0; 3], 1.5),
+        scene::camera(&BANDS, [2.0, -4.0, 4.0], [0.0; 3], 1.5),
         scene::plane(-1.0),
         scene::INTERFACE
     )
