@@ -15,6 +15,7 @@ mod material;
 mod medium;
 mod overrides;
 mod phase;
+mod phase_table;
 mod render;
 mod shape;
 mod spectrum;

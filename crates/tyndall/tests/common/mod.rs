@@ -40,15 +40,6 @@ impl Bands {
         let text: Vec<String> = pairs.map(|(e, v)| format!("{e} {v}")).collect();
         format!(" \"spectrum {name}\" [{}]", text.join(" "))
     }
-
-    /// The same as linear pieces whose jumps are one unit in the last place wide: for parameters without steps.
-    pub fn cliff(&self, name: &str, values: &[f64]) -> String {
-        assert_eq!(values.len(), self.count, "{name}: one value a band");
-        let edges = self.edges();
-        let piece = |(i, v): (usize, &f64)| format!("{} {v} {} {v}", edges[i], edges[i + 1].next_down());
-        let text: Vec<String> = values.iter().enumerate().map(piece).collect();
-        format!(" \"spectrum {name}\" [{}]", text.join(" "))
-    }
 }
 
 /// How a scene is rendered.

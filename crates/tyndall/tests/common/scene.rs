@@ -40,9 +40,9 @@ pub fn medium(bands: &Bands, name: &str, tau: &[f64], albedo: &[f64], more: &str
     format!("MakeNamedMedium \"{name}\" \"string type\" \"homogeneous\"{STEP}{a}{s}{more}\n")
 }
 
-/// Henyey-Greenstein's g band by band.
+/// Henyey-Greenstein's g band by band; the directive needs [`STEP`].
 pub fn asymmetry(bands: &Bands, g: &[f64]) -> String {
-    format!(" \"string phase\" \"henyey-greenstein\"{}", bands.cliff("g", g))
+    format!(" \"string phase\" \"henyey-greenstein\"{}", bands.step("g", g))
 }
 
 /// A closed box between two corners, normals outwards.
