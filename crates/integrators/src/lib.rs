@@ -14,6 +14,7 @@ pub mod observer;
 pub mod pixel;
 pub mod settings;
 pub mod shadow;
+pub mod tracking;
 pub mod volpath;
 pub mod weight;
 

@@ -16,6 +16,7 @@ mod material;
 mod medium;
 mod overrides;
 mod phase;
+mod phase_table;
 mod render;
 mod sensor;
 mod shape;

@@ -78,12 +78,12 @@ pub fn medium(bands: &Bands, name: &str, tau: &[f64], albedo: &[f64], more: &str
     )
 }
 
-/// Henyey-Greenstein's g band by band; one number where all bands agree.
+/// Henyey-Greenstein's g band by band (the directive needs [`Bands::interpolation`]); one number where all bands agree.
 pub fn asymmetry(bands: &Bands, g: &[f64]) -> String {
     if g.iter().all(|v| *v == g[0]) {
         return format!(" \"float g\" {}", g[0]);
     }
-    format!(" \"string phase\" \"henyey-greenstein\"{}", bands.cliff("g", g))
+    format!(" \"string phase\" \"henyey-greenstein\"{}", bands.step("g", g))
 }
 
 /// The phase function that a table calls `phase`.

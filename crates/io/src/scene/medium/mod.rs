@@ -1,16 +1,25 @@
 //! `MakeNamedMedium`: media and their phase functions.
 
+mod cloud;
+mod grid;
+mod mixture;
+mod nanovdb;
+mod place;
+mod rgb;
+mod spectral;
+
 use super::{
     collect::Declared,
     context::{Context, at, refuse},
     emission, phase,
     spectrum::{self, Purpose},
 };
+use tyndall_geometry::Transform;
 use tyndall_pbrt::{Error, ParamSet};
 use tyndall_spectral::{Curve, colour::SpaceName, media_presets, upsample};
 use tyndall_transport::media::{Homogeneous, Medium};
 
-const KNOWN: [&str; 22] = [
+const KNOWN: [&str; 40] = [
     "type",
     "preset",
     "sigma_a",
@@ -33,19 +42,66 @@ const KNOWN: [&str; 22] = [
     "lines",
     "density",
     "filename",
+    "temperature",
+    "temperatureoffset",
+    "temperaturecutoff",
+    "temperaturescale",
+    "nx",
+    "ny",
+    "nz",
+    "p0",
+    "p1",
+    "edge",
+    "majorantscale",
+    "wispiness",
+    "frequency",
+    "gridname",
+    "temperaturename",
+    "bands",
+    "media",
+    "phasetable",
 ];
 
+/// Names for messages.
+const CLASSES: &str = "homogeneous, uniformgrid, rgbgrid, spectralgrid, cloud, nanovdb, mixture";
+
+/// Finds a medium that was made before.
+pub type Known<'a> = dyn Fn(&str) -> Option<&'a Medium> + 'a;
+
 /// The medium of a directive.
-pub fn medium(ctx: &Context<'_>, declared: &Declared, units: &mut emission::Units) -> Result<Medium, Error> {
+pub fn medium(
+    ctx: &Context<'_>,
+    declared: &Declared,
+    units: &mut emission::Units,
+    known: &Known<'_>,
+) -> Result<Medium, Error> {
     let params = &declared.params;
     let class = params.string("type", "")?;
     let medium = match class.as_str() {
         "homogeneous" => Medium::Homogeneous(homogeneous(ctx, params, units)?),
+        "uniformgrid" => {
+            let model = grid::model(ctx, params, units)?;
+            place::place(ctx, declared, grid::to_medium(params, &model)?, model)?
+        }
+        "rgbgrid" => {
+            let model = rgb::model(ctx, declared, units)?;
+            place::place(ctx, declared, grid::to_medium(params, &model)?, model)?
+        }
+        "spectralgrid" => {
+            let model = spectral::model(ctx, params)?;
+            place::place(ctx, declared, grid::to_medium(params, &model)?, model)?
+        }
+        "cloud" => place::place(ctx, declared, Transform::IDENTITY, cloud::model(ctx, params)?)?,
+        "nanovdb" => {
+            let (model, to_medium) = nanovdb::model(ctx, params, units)?;
+            place::place(ctx, declared, to_medium, model)?
+        }
+        "mixture" => mixture::medium(ctx, declared, known)?,
         "" => return Err(params.missing("string", "type")),
         other => {
-            let known = "this version has \"homogeneous\"";
-            return Err(refuse(params, "type", "must be a medium that is supported", format!("\"{other}\""))
-                .hint(known));
+            let got = format!("\"{other}\"");
+            return Err(refuse(params, "type", "must be a medium that is supported", got)
+                .hint(format!("one of {CLASSES}")));
         }
     };
     ctx.finish(params, &KNOWN);
@@ -57,21 +113,32 @@ fn homogeneous(
     params: &ParamSet,
     units: &mut emission::Units,
 ) -> Result<Homogeneous, Error> {
-    let [sigma_a, sigma_s] = coefficients(ctx, params)?;
-    for (name, curve) in [("sigma_a", &sigma_a), ("sigma_s", &sigma_s)] {
+    let [sigma_a, sigma_s] = scaled_coefficients(ctx, params)?;
+    let le = emission::of_medium(ctx, params, units)?;
+    let phase = phase::phase(ctx, params)?;
+    Homogeneous::new(sigma_a, sigma_s, le, phase, ctx.range).map_err(|e| at(params, e))
+}
+
+/// sigma_a and sigma_s times `scale`, all checked.
+fn scaled_coefficients(ctx: &Context<'_>, params: &ParamSet) -> Result<[Curve; 2], Error> {
+    let coefficients = coefficients(ctx, params)?;
+    for (name, curve) in ["sigma_a", "sigma_s"].into_iter().zip(&coefficients) {
         let least = curve.min_value(ctx.range);
         if least < 0.0 {
             return Err(refuse(params, name, "must be >= 0", format!("{least} 1/m")));
         }
     }
+    let scale = scale(params)?;
+    Ok(coefficients.map(|c| c.scaled(scale)))
+}
+
+/// The factor of all coefficients.
+fn scale(params: &ParamSet) -> Result<f32, Error> {
     let scale = params.float("scale", 1.0)?;
-    if !(scale >= 0.0 && scale.is_finite()) {
-        return Err(refuse(params, "scale", "must be finite and >= 0", scale));
+    if scale >= 0.0 && scale.is_finite() {
+        return Ok(scale);
     }
-    let le = emission::of_medium(ctx, params, units)?;
-    let phase = phase::phase(ctx, params)?;
-    Homogeneous::new(sigma_a.scaled(scale), sigma_s.scaled(scale), le, phase, ctx.range)
-        .map_err(|e| at(params, e))
+    Err(refuse(params, "scale", "must be finite and >= 0", scale))
 }
 
 /// sigma_a, sigma_s: of a preset (in 1/mm as pbrt has them, used as they stand), else given, else 1.
