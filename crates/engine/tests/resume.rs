@@ -321,7 +321,8 @@ fn an_announced_giant_is_refused_before_allocation() {
     let hash = *blake3::hash(&bytes).as_bytes();
     bytes.extend(hash);
     fs::write(checkpoints.path(), bytes).unwrap();
-    let merge = |limit| tyndall_engine::shard::merge(&[checkpoints.path().into()], limit).unwrap_err().to_string();
+    let merge =
+        |limit| tyndall_engine::shard::merge(&[checkpoints.path().into()], limit).unwrap_err().to_string();
     let error = merge(1 << 30);
     assert!(error.contains("4000000000 x 4000000000 pixels with 3 channels need"), "{error}");
 }

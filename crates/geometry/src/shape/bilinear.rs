@@ -89,7 +89,7 @@ impl BilinearMesh {
 
     /// Whether patch `prim` is a parallelogram.
     pub fn is_flat(&self, prim: u32) -> bool {
-        self.forms[prim as usize] != Form::Curved
+        self.patch(prim).is_flat()
     }
 
     /// The box around patch `prim`.

@@ -62,7 +62,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         sampler.seek_vertex(self.depth - 1);
         self.weight.r_e = Spectrum::ZERO;
         self.rival = None;
-        self.previous = p;
+        (self.previous, self.facing) = (p, Vec3::ZERO);
         self.scattered_widely = true;
 
         let wo = -self.ray.d;
@@ -71,13 +71,14 @@ impl<'s, const N: usize> Walk<'s, N> {
             let (medium, inside) = (self.medium, self.inside);
             let vertex = Scatterer {
                 p,
+                n: Vec3::ZERO,
                 spawn: |_| (p, medium),
                 eval: |wi| {
                     let phase = scattering.eval(wo, wi, self.w);
                     (phase, phase)
                 },
                 rival: None,
-                known: Place { medium, inside: inside.as_ref() },
+                known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
             };
             self.direct(&vertex, sampler, seen);
         }

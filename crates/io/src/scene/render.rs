@@ -93,7 +93,7 @@ pub fn integrator_named(name: &str) -> Option<(Method, bool)> {
 /// Names for messages.
 pub const INTEGRATORS: &str = "volpath, analog, path (leaves media out), simplepath and simplevolpath";
 
-const KNOWN: [&str; 16] = [
+const KNOWN: &[&str] = &[
     "maxdepth",
     "regularize",
     "lightsampler",
@@ -136,7 +136,7 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
     }
     let settings = settings(p)?;
     let selection = selection(p)?;
-    ctx.finish(p, &KNOWN);
+    ctx.finish(p, KNOWN);
     Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, selection })
 }
 

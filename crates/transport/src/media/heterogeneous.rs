@@ -139,6 +139,16 @@ impl Heterogeneous {
         })
     }
 
+    /// Phase function \[1/sr\] at a point of the world, the mixture of what scatters there.
+    pub fn phase<const N: usize>(&self, p: Vec3, wo: Vec3, wi: Vec3, w: &Wavelengths<N>) -> Spectrum<N> {
+        let p = self.to_grid.point(p);
+        with_model!(&self.model, m => {
+            let prepared = m.prepare(w);
+            let sigma_s = m.at(p, &prepared).sigma_s;
+            m.scattering(p, sigma_s, &prepared).eval(wo, wi, w)
+        })
+    }
+
     /// Majorant \[1/m\] of the whole medium per lane.
     pub fn majorant<const N: usize>(&self, w: &Wavelengths<N>) -> Spectrum<N> {
         with_model!(&self.model, m => m.unit(&m.prepare(w)) * self.majorants.max())

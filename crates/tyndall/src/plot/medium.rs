@@ -1,4 +1,5 @@
-//! Media: coefficients, albedo and mean cosine, mean free path, phase function.
+//! Media: coefficients, albedo and mean cosine, mean free path, phase function; of a medium that varies in space, at the
+//! point of a lattice where it is densest.
 
 use super::curve;
 use crate::{
@@ -6,9 +7,9 @@ use crate::{
     page::{Axis, Chart, Series, side_by_side},
 };
 use std::path::Path;
-use tyndall_base::vec::vec3;
+use tyndall_base::{Vec3, vec::vec3};
 use tyndall_spectral::{LambdaRange, Wavelengths};
-use tyndall_transport::media::Medium;
+use tyndall_transport::media::{Heterogeneous, Medium};
 
 /// Wavelengths of the polar plot \[nm\]; those outside the range are left out.
 const WAVELENGTHS: [f32; 4] = [400.0, 500.0, 600.0, 700.0];
@@ -36,11 +37,11 @@ pub fn medium(scene: &Path, name: Option<&str>, options: &Options) -> Result<Str
 }
 
 fn charts(name: &str, medium: &Medium, range: LambdaRange) -> [String; 4] {
+    let place = Place::of(medium, range);
     let at = |f: fn(f64, f64) -> f64| {
         curve(range, |lambda| {
-            let w = Wavelengths::continuum([lambda], [1.0]);
-            let m = medium.homogeneous(&w);
-            f(f64::from(m.sigma_a.hero()), f64::from(m.sigma_s.hero()))
+            let (a, s) = place.coefficients(lambda);
+            f(a, s)
         })
     };
     let nm = || Axis::new("wavelength [nm]");
@@ -48,10 +49,7 @@ fn charts(name: &str, medium: &Medium, range: LambdaRange) -> [String; 4] {
         .with(Series::line("sigma_a", at(|a, _| a)))
         .with(Series::line("sigma_s", at(|_, s| s)))
         .with(Series::dashed("sigma_t", at(|a, s| a + s)));
-    let cosine = curve(range, |lambda| {
-        let w = Wavelengths::continuum([lambda], [1.0]);
-        f64::from(medium.homogeneous(&w).phase.mean_cosine(lambda))
-    });
+    let cosine = curve(range, |lambda| place.mean_cosine(lambda));
     let albedo = Chart::new(&format!("{name}: albedo and mean cosine"), nm(), Axis::new(""))
         .with(Series::line("albedo", at(|a, s| if a + s > 0.0 { s / (a + s) } else { 0.0 })))
         .with(Series::dashed("mean cosine", cosine));
@@ -59,16 +57,14 @@ fn charts(name: &str, medium: &Medium, range: LambdaRange) -> [String; 4] {
     let free = at(|a, s| 1.0 / (a + s)).into_iter().filter(|p| p[1].is_finite()).collect();
     let free =
         Chart::new(&format!("{name}: mean free path"), nm(), Axis::new("[m]")).with(Series::line("", free));
-    [coefficients.to_svg(), albedo.to_svg(), free.to_svg(), polar(name, medium, range)]
+    [coefficients.to_svg(), albedo.to_svg(), free.to_svg(), polar(name, &place, range)]
 }
 
-fn polar(name: &str, medium: &Medium, range: LambdaRange) -> String {
+fn polar(name: &str, place: &Place<'_>, range: LambdaRange) -> String {
     let curves: Vec<(f32, Vec<[f64; 2]>)> = WAVELENGTHS
         .into_iter()
         .filter(|l| range.contains(*l))
-        .map(|lambda| {
-            (lambda, (-180..=180).map(|deg| [f64::from(deg), phase(medium, lambda, deg)]).collect())
-        })
+        .map(|lambda| (lambda, (-180..=180).map(|deg| [f64::from(deg), place.phase(lambda, deg)]).collect()))
         .collect();
     let values = || curves.iter().flat_map(|(_, c)| c).map(|p| p[1]).filter(|v| *v > 0.0);
     let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
@@ -87,11 +83,67 @@ fn polar(name: &str, medium: &Medium, range: LambdaRange) -> String {
     curves.iter().map(series).fold(chart, Chart::with).to_polar_svg()
 }
 
-/// Phase function at an angle of scattering \[degrees\].
-fn phase(medium: &Medium, lambda: f32, degrees: i32) -> f64 {
-    let w = Wavelengths::continuum([lambda], [1.0]);
-    let angle = f64::from(degrees).to_radians();
-    // directions point away from the point of scattering: light that goes on came from -z
-    let (wo, wi) = (vec3(0.0, 0.0, -1.0), vec3(angle.sin() as f32, 0.0, angle.cos() as f32));
-    f64::from(medium.homogeneous(&w).phase.eval(wo, wi, &w).hero())
+/// What is plotted of a medium.
+enum Place<'a> {
+    Anywhere(&'a Medium),
+    At(&'a Heterogeneous, Vec3),
+}
+
+impl<'a> Place<'a> {
+    fn of(medium: &'a Medium, range: LambdaRange) -> Self {
+        match medium {
+            Medium::Homogeneous(_) => Self::Anywhere(medium),
+            Medium::Heterogeneous(m) => Self::At(m, densest(m, 0.5 * (range.min + range.max))),
+        }
+    }
+
+    /// `sigma_a`, `sigma_s` \[1/m\].
+    fn coefficients(&self, lambda: f32) -> (f64, f64) {
+        let w = Wavelengths::continuum([lambda], [1.0]);
+        let (a, s) = match self {
+            Self::Anywhere(m) => {
+                m.homogeneous(&w).map_or((0.0, 0.0), |m| (m.sigma_a.hero(), m.sigma_s.hero()))
+            }
+            Self::At(m, p) => {
+                let point = m.at(*p, &w);
+                (point.sigma_a.hero(), point.sigma_s.hero())
+            }
+        };
+        (f64::from(a), f64::from(s))
+    }
+
+    fn mean_cosine(&self, lambda: f32) -> f64 {
+        let w = Wavelengths::continuum([lambda], [1.0]);
+        f64::from(match self {
+            Self::Anywhere(m) => m.homogeneous(&w).map_or(0.0, |m| m.phase.mean_cosine(lambda)),
+            Self::At(m, p) => m.mean_cosine(*p, &w),
+        })
+    }
+
+    /// Phase function at an angle of scattering \[degrees\].
+    fn phase(&self, lambda: f32, degrees: i32) -> f64 {
+        let w = Wavelengths::continuum([lambda], [1.0]);
+        let angle = f64::from(degrees).to_radians();
+        // directions point away from the point of scattering: light that goes on came from -z
+        let (wo, wi) = (vec3(0.0, 0.0, -1.0), vec3(angle.sin() as f32, 0.0, angle.cos() as f32));
+        f64::from(match self {
+            Self::Anywhere(m) => m.homogeneous(&w).map_or(0.0, |m| m.phase.eval(wo, wi, &w).hero()),
+            Self::At(m, p) => m.phase(*p, wo, wi, &w).hero(),
+        })
+    }
+}
+
+/// The point of a lattice over the medium's box where extinction is greatest.
+fn densest(m: &Heterogeneous, lambda: f32) -> Vec3 {
+    const LATTICE: usize = 32;
+    let (b, w) = (m.bounds(), Wavelengths::continuum([lambda], [1.0]));
+    let at = |n: usize| ((n % LATTICE) as f32 + 0.5) / LATTICE as f32;
+    let point =
+        |i: usize| b.lo + b.extent().hadamard(vec3(at(i), at(i / LATTICE), at(i / LATTICE / LATTICE)));
+    let sigma_t = |i: &usize| {
+        let p = m.at(point(*i), &w);
+        p.sigma_a.hero() + p.sigma_s.hero()
+    };
+    let best = (0..LATTICE * LATTICE * LATTICE).max_by(|i, j| sigma_t(i).total_cmp(&sigma_t(j)));
+    point(best.unwrap_or(0))
 }

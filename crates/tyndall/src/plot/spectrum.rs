@@ -40,6 +40,6 @@ fn from_file(name: &str, options: &Options) -> Result<Vec<[f64; 2]>, Error> {
     let medium = loaded.scene.media.first().expect("the text makes a medium");
     Ok(curve(options.range, |lambda| {
         let w = Wavelengths::continuum([lambda], [1.0]);
-        f64::from(medium.homogeneous(&w).sigma_a.hero())
+        medium.homogeneous(&w).map_or(f64::NAN, |m| f64::from(m.sigma_a.hero()))
     }))
 }
