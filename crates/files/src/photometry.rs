@@ -160,7 +160,7 @@ impl<'a> Source<'a> {
 
     fn count(&mut self, what: &str) -> Result<usize> {
         let value = self.number(what)?;
-        if value >= 1.0 && value <= 65536.0 && value.fract() == 0.0 {
+        if (1.0..=65536.0).contains(&value) && value.fract() == 0.0 {
             return Ok(value as usize);
         }
         Err(self.wrong(what, &value.to_string()))

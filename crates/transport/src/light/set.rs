@@ -317,12 +317,28 @@ mod tests {
         }
     }
 
-    /// Near a lamp it is chosen much more often than by power.
+    /// The second moment of an estimate of all local light, `sum c^2 / p`, is less by the tree than by power at most
+    /// points.
     #[test]
-    fn near_lights_are_preferred() {
-        let (_, set) = scene();
-        let Light::Point(lamp) = set.get(LightId(20)) else { panic!("the first point light") };
-        let p = lamp.p + vec3(0.05, 0.0, 0.0);
-        assert!(set.pmf_at(p, Vec3::ZERO, LightId(20)) > 5.0 * set.pmf(LightId(20)));
+    fn the_tree_has_less_variance_than_power() {
+        let (accel, set) = scene();
+        let far = set.spatial.as_ref().map_or(0.0, |s| s.far_share);
+        let mut rng = Pcg32::new(4, 2);
+        let w = tyndall_spectral::Wavelengths::<1>::continuum([550.0], [1.0]);
+        let mut better = 0;
+        for _ in 0..200 {
+            let p = vec3(rng.next_f32(), rng.next_f32(), rng.next_f32()) * 10.0;
+            let (mut by_tree, mut by_power) = (0.0, 0.0);
+            for (i, light) in set.iter().enumerate().filter(|(_, l)| l.is_local()) {
+                let id = LightId(i as u32);
+                if let Some(s) = light.sample_li(&accel, p, [0.5, 0.5], &w) {
+                    let c = s.l[0] / s.pdf;
+                    by_tree += c * c / (set.pmf_at(p, Vec3::ZERO, id) / (1.0 - far));
+                    by_power += c * c / set.pmf_local(id);
+                }
+            }
+            better += usize::from(by_tree < by_power);
+        }
+        assert!(better > 150, "{better} of 200");
     }
 }

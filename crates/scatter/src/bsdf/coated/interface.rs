@@ -41,6 +41,14 @@ impl Interface {
         fresnel_dielectric(wo.z, self.eta)
     }
 
+    /// Probability with which a walk is reflected: a smooth boundary's reflectance. A rough one lets light through
+    /// beyond the critical angle too, so neither event is ruled out there.
+    #[inline]
+    pub(super) fn share_reflected(&self, wo: Vec3) -> f32 {
+        let r = self.reflectance(wo);
+        if self.is_smooth() { r } else { r.clamp(0.1, 0.9) }
+    }
+
     /// The normal of the facet that is met.
     fn facet(&self, wo: Vec3, u: [f32; 2]) -> Vec3 {
         if self.is_smooth() { vec3(0.0, 0.0, 1.0) } else { self.distribution.sample_visible(wo, u) }

@@ -3,7 +3,8 @@
 //! `w` is the direction of travel, so the surface sees `-w`; `depth` below is the optical distance from the base.
 
 use super::{Base, Coated};
-use crate::bsdf::TransportMode;
+use crate::bsdf::fresnel::fresnel_conductor_n;
+use crate::bsdf::{Conductor, TransportMode};
 use crate::phase::{henyey_greenstein as hg, versine};
 use tyndall_base::{math, rng::Pcg32, vec::Vec3, warp::sample_exponential};
 use tyndall_spectral::Spectrum;
@@ -51,8 +52,7 @@ impl<'a, const N: usize> Walk<'a, N> {
     pub fn out(mut self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<End<N>> {
         let coat = &self.coated.coat;
         let mut specular = coat.is_smooth();
-        // reflection and refraction with the probability of a smooth boundary's
-        let r = coat.reflectance(wo);
+        let r = coat.share_reflected(wo);
         if uc < r {
             let (wi, weight) = coat.sample_reflection(wo, u)?;
             return Some(End { wi, weight: Spectrum::splat(weight / r), specular });
@@ -80,7 +80,7 @@ impl<'a, const N: usize> Walk<'a, N> {
     /// The coat from below: leaves, or goes down again.
     fn arrive(&mut self, specular: bool) -> Option<Option<End<N>>> {
         let coat = &self.coated.coat;
-        let r = coat.reflectance(-self.w);
+        let r = coat.share_reflected(-self.w);
         let (uc, u) = (self.rng.next_f32(), self.rng.next_2d());
         if uc < r {
             let (w, weight) = coat.sample_reflection(-self.w, u)?;
@@ -210,7 +210,28 @@ impl<'a, const N: usize> Walk<'a, N> {
     fn medium_light(&self, exit: &Exit) -> Spectrum<N> {
         let p = hg::p(self.coated.g, versine(-self.w, exit.d));
         let weight = exit.weight * self.transmittance(exit.d) * self.share(exit, p);
-        self.weight * self.coated.albedo * (p * weight / exit.d.z)
+        let direct = self.weight * self.coated.albedo * (p * weight / exit.d.z);
+        match &self.coated.base {
+            Base::Conductor(metal) if metal.distribution.is_smooth() && self.coated.coat.is_smooth() => {
+                self.mirrored(exit, direct, metal)
+            }
+            _ => direct,
+        }
+    }
+
+    /// Between a mirror and a smooth boundary light may go to and fro before it leaves along `exit`, which no walk meets
+    /// by chance: the sum over all reflections of what leaves upwards (`direct`) and of what goes down first.
+    fn mirrored(&self, exit: &Exit, direct: Spectrum<N>, metal: &Conductor<N>) -> Spectrum<N> {
+        let cos = exit.d.z;
+        let down = Vec3 { z: -cos, ..exit.d };
+        let across = math::exp(-self.coated.thickness / cos);
+        let metal = fresnel_conductor_n(cos, &metal.eta, &metal.k);
+        let coat = self.coated.coat.reflectance(down);
+        let p = hg::p(self.coated.g, versine(-self.w, down));
+        let way = math::exp(-self.height / cos) * across * exit.weight * p / cos;
+        let first = self.weight * self.coated.albedo * metal * way;
+        let again = metal.map(|f| 1.0 / (1.0 - f * coat * across * across));
+        (direct + first) * again
     }
 
     /// Out along the direction the walk has taken, through a rough coat.
