@@ -91,7 +91,7 @@ pub fn integrator_named(name: &str) -> Option<(Method, bool)> {
 /// Names for messages.
 pub const INTEGRATORS: &str = "volpath, analog, path (leaves media out), simplepath and simplevolpath";
 
-const KNOWN: [&str; 16] = [
+const KNOWN: [&str; 17] = [
     "maxdepth",
     "regularize",
     "lightsampler",

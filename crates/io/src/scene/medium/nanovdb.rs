@@ -16,11 +16,7 @@ use tyndall_geometry::Transform;
 use tyndall_pbrt::{Error, ParamSet};
 use tyndall_transport::{
     TransportError,
-    media::{
-        Bricks, Model,
-        density::Node,
-        model::Separable,
-    },
+    media::{Bricks, Model, density::Node, model::Separable},
 };
 
 /// A grid and the map from its voxels to the medium's space.
