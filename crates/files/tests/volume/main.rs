@@ -34,8 +34,8 @@ fn spec(kind: u32) -> Spec<'static> {
 
 fn zip(plain: Vec<u8>) -> Vec<u8> {
     let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
-    encoder.write_all(&plain).unwrap();
-    let packed = encoder.finish().unwrap();
+    encoder.write_all(&plain).expect("memory takes it");
+    let packed = encoder.finish().expect("memory takes it");
     [(packed.len() as u64).to_le_bytes().to_vec(), packed].concat()
 }
 
@@ -69,13 +69,15 @@ fn blosc(plain: Vec<u8>) -> Vec<u8> {
 }
 
 fn on_disk(bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempfile::tempdir().expect("a folder");
     let path = dir.path().join("grid.nvdb");
-    std::fs::write(&path, bytes).unwrap();
+    std::fs::write(&path, bytes).expect("a file");
     (dir, path)
 }
 
-fn leaves(grid: &Grid<'_>) -> Result<BTreeMap<[i32; 3], Vec<f32>>, FileError> {
+type Leaves = BTreeMap<[i32; 3], Vec<f32>>;
+
+fn leaves(grid: &Grid<'_>) -> Result<Leaves, FileError> {
     let mut all = BTreeMap::new();
     grid.visit::<FileError>(|origin, piece| {
         if let Piece::Brick(v) = piece {
@@ -86,7 +88,7 @@ fn leaves(grid: &Grid<'_>) -> Result<BTreeMap<[i32; 3], Vec<f32>>, FileError> {
     Ok(all)
 }
 
-fn read(bytes: &[u8], name: &str) -> Result<Option<BTreeMap<[i32; 3], Vec<f32>>>, FileError> {
+fn read(bytes: &[u8], name: &str) -> Result<Option<Leaves>, FileError> {
     let (_dir, path) = on_disk(bytes);
     let file = NanoVdb::open(&path)?;
     file.grid(name)?.as_ref().map(leaves).transpose()

@@ -169,7 +169,7 @@ fn write_leaf(out: &mut Out, spec: &Spec<'_>, at: usize, n: usize, origin: Voxel
     out.put(at + 84, &step.to_le_bytes());
     for (i, code) in codes(low, step, &values).into_iter().enumerate() {
         let bit = i * bits as usize;
-        for (k, byte) in (code << (bit % 8) % 16).to_le_bytes().into_iter().enumerate() {
+        for (k, byte) in (code << (bit % 8)).to_le_bytes().into_iter().enumerate() {
             if bits == 16 || k == 0 {
                 out.0[at + 96 + bit / 8 + k] |= byte;
             }

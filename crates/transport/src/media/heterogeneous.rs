@@ -16,6 +16,7 @@ const MOST_STEPS: f32 = 65_536.0;
 
 /// The kinds of medium, each with its own loop.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "one of it per medium, behind a pointer")]
 pub enum Model {
     /// Spectra times a regular grid.
     Dense(Separable<Dense>),

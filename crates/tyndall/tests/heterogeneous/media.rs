@@ -9,7 +9,7 @@ const G: [f64; 8] = [0.7, -0.4, 0.0, 0.5, -0.3, 0.85, 0.2, -0.6];
 
 /// Densities between 0 and 2 in no order, some of them zero.
 pub fn densities(n: usize) -> Vec<f64> {
-    let at = |i: usize| (i * 2_654_435_761 >> 7) % 1000;
+    let at = |i: usize| ((i * 2_654_435_761) >> 7) % 1000;
     (0..n).map(|i| if at(i) < 250 { 0.0 } else { 0.002 * at(i) as f64 }).collect()
 }
 

@@ -28,9 +28,9 @@ fn a_table_of_henyey_greenstein() {
         let medium = media::medium("homogeneous", &format!("{spectra}{phase}"));
         format!("{}WorldBegin\n{sun}{medium}{}", media::camera(), media::cube())
     };
-    let expected = Run::new(BANDS, 512).bands(&text(" \"float g\" 0.8"));
+    let expected = Run::new(BANDS, 4096).bands(&text(" \"float g\" 0.8"));
     let named = format!(" \"string phase\" \"tabulated\" \"string phasetable\" \"{}\"", path.display());
-    let got = Run::new(BANDS, 512).seed(2).bands(&text(&named));
+    let got = Run::new(BANDS, 4096).seed(2).bands(&text(&named));
     let mut family = Family::default();
     family.equal("table", &got, &expected);
 

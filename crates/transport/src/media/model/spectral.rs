@@ -139,13 +139,13 @@ impl MediumModel for SpectralGrid {
     }
 
     #[inline]
-    fn extinction<'m, const N: usize>(&'m self, p: Vec3, bands: &[Option<usize>; N]) -> Spectrum<N> {
+    fn extinction<const N: usize>(&self, p: Vec3, bands: &[Option<usize>; N]) -> Spectrum<N> {
         let [a, s] = self.coefficients(p, bands);
         a + s
     }
 
     #[inline]
-    fn at<'m, const N: usize>(&'m self, p: Vec3, bands: &[Option<usize>; N]) -> Point<N> {
+    fn at<const N: usize>(&self, p: Vec3, bands: &[Option<usize>; N]) -> Point<N> {
         let [sigma_a, sigma_s] = self.coefficients(p, bands);
         Point { sigma_a, sigma_s, emitted: Spectrum::ZERO }
     }
