@@ -54,7 +54,11 @@ fn a_limit_on_the_size_of_files() {
 #[test]
 fn folders_that_are_not_there_or_are_files() {
     let place = Place::new();
-    failed(&place.run(&format!("{TINY} -o nowhere/a.exr")), 1, "nowhere/a.exr: cannot write: No such file or directory");
+    failed(
+        &place.run(&format!("{TINY} -o nowhere/a.exr")),
+        1,
+        "nowhere/a.exr: cannot write: No such file or directory",
+    );
     place.write("file", "");
     failed(&place.run(&format!("{TINY} -o file/a.exr")), 1, "file/a.exr: cannot write: Not a directory");
     std::fs::create_dir(place.path("dir.exr")).expect("writable");
@@ -85,7 +89,11 @@ fn no_permission() {
     mode(&place.path("shut"), 0o777);
     place.write("shut/b.exr", "mine");
     mode(&place.path("shut/b.exr"), 0o444);
-    failed(&shell(&place, &format!("{program} {TINY} --force -o shut/b.exr")), 1, "shut/b.exr: cannot write: permission denied");
+    failed(
+        &shell(&place, &format!("{program} {TINY} --force -o shut/b.exr")),
+        1,
+        "shut/b.exr: cannot write: permission denied",
+    );
     assert_eq!(place.read("shut/b.exr"), b"mine");
 }
 

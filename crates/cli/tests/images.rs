@@ -138,7 +138,11 @@ fn column(header: &[String], name: &str) -> usize {
 fn what_is_known_of_errors_is_told() {
     let place = Place::new();
     let ran = place.ok("render --resolution 16x16 --spp 4 --errors replicated -o a.exr -o a.csv");
-    assert!(ran.err.contains("256 of 256 pixels have too few samples for errors of their own"), "{}", ran.err);
+    assert!(
+        ran.err.contains("256 of 256 pixels have too few samples for errors of their own"),
+        "{}",
+        ran.err
+    );
     let (rows, header) = table(&place, "a.csv");
     let all = |name: &str, value: f64| rows.iter().all(|r| r[column(&header, name)] == value);
     assert!(all("statistics.samples [1]", 4.0) && all("statistics.pooled [1]", 1.0));
@@ -179,8 +183,14 @@ fn spectral_cubes_as_netcdf() {
     let job = "render --resolution 8x8 --spp 4 --quiet --bands 400:700:100 --split-orders 0,1+ --aov depth";
     place.ok(&format!("{job} -o a.nc -o a.film -o a.exr"));
     let cube = place.read("a.nc");
-    for name in ["wavelength_bounds", "radiance_se", "order1plus_radiance", "depth_Z", "statistics_samples", "W m^-2 sr^-1 nm^-1"]
-    {
+    for name in [
+        "wavelength_bounds",
+        "radiance_se",
+        "order1plus_radiance",
+        "depth_Z",
+        "statistics_samples",
+        "W m^-2 sr^-1 nm^-1",
+    ] {
         assert!(cube.windows(name.len()).any(|w| w == name.as_bytes()), "{name}");
     }
     // the same from the film, and from EXR

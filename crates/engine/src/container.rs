@@ -145,7 +145,10 @@ pub fn read(
     header.film.validate().and_then(|()| header.film.check_size(limit))?;
     let justified = u128::from(length) * u128::from(EXPANSION);
     if header.film.bytes() > justified {
-        let what = format!("announces {} bytes of sums, its {length} bytes can hold {justified}", header.film.bytes());
+        let what = format!(
+            "announces {} bytes of sums, its {length} bytes can hold {justified}",
+            header.film.bytes()
+        );
         return Err(EngineError::damaged(path, what));
     }
     accept(&header)?;

@@ -275,7 +275,7 @@ fn stopped(job: &Job, pass: &Hashed) -> (tempfile::TempDir, Checkpoints) {
     let folder = tempfile::tempdir().unwrap();
     let checkpoints = Checkpoints::new(folder.path().join("a.ckpt"), Duration::from_secs(60));
     let cancel = Cancel::default();
-    let mut sink = StopAfter { patches: 5, cancel: cancel.clone() };
+    let mut sink = StopAfter { patches: 4, cancel: cancel.clone() };
     let end = go(job, pass, State::start(job).unwrap(), &checkpoints, &cancel, &mut sink);
     assert_eq!(end, End::Cancelled);
     (folder, checkpoints)
@@ -321,7 +321,8 @@ fn an_announced_giant_is_refused_before_allocation() {
     let hash = *blake3::hash(&bytes).as_bytes();
     bytes.extend(hash);
     fs::write(checkpoints.path(), bytes).unwrap();
-    let merge = |limit| tyndall_engine::shard::merge(&[checkpoints.path().into()], limit).unwrap_err().to_string();
+    let merge =
+        |limit| tyndall_engine::shard::merge(&[checkpoints.path().into()], limit).unwrap_err().to_string();
     let error = merge(1 << 30);
     assert!(error.contains("4000000000 x 4000000000 pixels with 3 channels need"), "{error}");
 }

@@ -30,7 +30,10 @@ fn dataset<'a>(bands: &'a [Vec<f32>], depth: &'a [f32]) -> Dataset<'a> {
             variable("depth", vec![depth], false),
             variable("radiance_se", planes(), true),
         ],
-        attributes: vec![("tyndall_job".into(), "0123456789abcdef".into()), ("settings".into(), "a: b\nc: d".into())],
+        attributes: vec![
+            ("tyndall_job".into(), "0123456789abcdef".into()),
+            ("settings".into(), "a: b\nc: d".into()),
+        ],
     }
 }
 
@@ -52,7 +55,10 @@ fn cubes_come_back() {
     assert_eq!(set.get_var_attr_as_string("radiance", "ancillary_variables").as_deref(), Some("radiance_se"));
     assert_eq!(set.get_global_attr_as_string("Conventions").as_deref(), Some("CF-1.8"));
     assert_eq!(file.read_var_f64("wavelength").expect("there"), [425.0, 500.0, 575.25]);
-    assert_eq!(file.read_var_f64("wavelength_bounds").expect("there"), [400.0, 450.0, 450.0, 550.0, 550.0, 600.5]);
+    assert_eq!(
+        file.read_var_f64("wavelength_bounds").expect("there"),
+        [400.0, 450.0, 450.0, 550.0, 550.0, 600.5]
+    );
     assert_eq!(file.read_var_f64("x").expect("there"), [10.0, 11.0, 12.0]);
     assert_eq!(file.read_var_f64("y").expect("there"), [20.0, 21.0]);
     assert_eq!(file.read_var_f32("radiance").expect("there"), bands.concat());
@@ -67,7 +73,8 @@ fn without_an_axis() {
     let folder = tempfile::tempdir().expect("writable");
     let path = folder.path().join("a.nc");
     let plane = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-    let data = Dataset { size: [3, 2], variables: vec![variable("R", vec![&plane], false)], ..Dataset::default() };
+    let data =
+        Dataset { size: [3, 2], variables: vec![variable("R", vec![&plane], false)], ..Dataset::default() };
     write_netcdf(&path, &data).expect("written");
     assert_eq!(FileReader::open(&path).expect("NetCDF").read_var_f32("R").expect("there"), plane);
 }
