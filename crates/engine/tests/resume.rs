@@ -275,7 +275,7 @@ fn stopped(job: &Job, pass: &Hashed) -> (tempfile::TempDir, Checkpoints) {
     let folder = tempfile::tempdir().unwrap();
     let checkpoints = Checkpoints::new(folder.path().join("a.ckpt"), Duration::from_secs(60));
     let cancel = Cancel::default();
-    let mut sink = StopAfter { patches: 5, cancel: cancel.clone() };
+    let mut sink = StopAfter { patches: 4, cancel: cancel.clone() };
     let end = go(job, pass, State::start(job).unwrap(), &checkpoints, &cancel, &mut sink);
     assert_eq!(end, End::Cancelled);
     (folder, checkpoints)
