@@ -1,6 +1,6 @@
 """Mitsuba 3 on the fog box and the empty box of crates/tyndall/scenes/bench: prints one JSON line per measurement.
 
-usage: mitsuba_boxes.py VARIANT MASK_DIR [--resolution 128] [--spp 16] [--seeds 8]
+usage: mitsuba_boxes.py VARIANT MASK_DIR [--resolution 128] [--spp 4 16 64] [--seeds 8]
 
 E = 1 / (MSE_Y x user CPU s), MSE_Y from the variance over seeds, without the pixels of mask-SCENE.pbm (headline) and
 over the whole frame. One thread; the first picture, which compiles the kernels, is not counted.
@@ -20,7 +20,7 @@ ARGUMENTS = argparse.ArgumentParser()
 ARGUMENTS.add_argument("variant")
 ARGUMENTS.add_argument("masks", type=pathlib.Path)
 ARGUMENTS.add_argument("--resolution", type=int, default=128)
-ARGUMENTS.add_argument("--spp", type=int, default=16)
+ARGUMENTS.add_argument("--spp", type=int, nargs="+", default=[4, 16, 64])
 ARGUMENTS.add_argument("--seeds", type=int, default=8)
 A = ARGUMENTS.parse_args()
 mi.set_variant(A.variant)
@@ -64,7 +64,7 @@ def box(bsdf, to_world):
     return {"type": "cube", "to_world": to_world, "bsdf": {"type": "ref", "id": bsdf}}
 
 
-def scene(fog, sampler):
+def scene(fog, sampler, spp):
     lamp = table([15 * planck(x) / planck(560.0) for x in GRID])
     s = {
         "type": "scene",
@@ -72,7 +72,7 @@ def scene(fog, sampler):
         "sensor": {
             "type": "perspective", "fov": 39.3077, "near_clip": 0.001, "far_clip": 100.0,
             "to_world": T().look_at(origin=[0, 0, 3.9], target=[0, 0, 0], up=[0, 1, 0]),
-            "sampler": {"type": sampler, "sample_count": A.spp},
+            "sampler": {"type": sampler, "sample_count": spp},
             "film": {
                 "type": "hdrfilm", "width": A.resolution, "height": A.resolution, "pixel_format": "xyz",
                 "component_format": "float32", "rfilter": {"type": "box"},
@@ -109,22 +109,23 @@ def hidden(name):
     return np.array(words[2:], dtype=int).reshape(height, width) == 1
 
 
-def measure(name, sampler):
-    loaded = scene(name == "fog-box", sampler)
-    np.array(mi.render(loaded, spp=A.spp, seed=10_000))
+def measure(name, sampler, spp):
+    loaded = scene(name == "fog-box", sampler, spp)
+    np.array(mi.render(loaded, spp=spp, seed=10_000))
     pictures, seconds = [], []
     for seed in range(A.seeds):
         before = resource.getrusage(resource.RUSAGE_SELF).ru_utime
-        pictures.append(np.array(mi.render(loaded, spp=A.spp, seed=seed), dtype=np.float64)[..., 1])
+        pictures.append(np.array(mi.render(loaded, spp=spp, seed=seed), dtype=np.float64)[..., 1])
         seconds.append(resource.getrusage(resource.RUSAGE_SELF).ru_utime - before)
     variance, user = np.var(pictures, axis=0, ddof=1), float(np.mean(seconds))
     print(json.dumps({
-        "renderer": f"Mitsuba {mi.__version__} {A.variant}, {sampler}", "scene": name, "spp": A.spp,
+        "renderer": f"Mitsuba {mi.__version__} {A.variant}, {sampler}", "scene": name, "spp": spp,
         "headline": 1 / (float(variance[~hidden(name)].mean()) * user), "whole": 1 / (float(variance.mean()) * user),
-        "samples_per_second": A.resolution**2 * A.spp / user, "mean_y": float(np.mean(pictures)),
+        "samples_per_second": A.resolution**2 * spp / user, "mean_y": float(np.mean(pictures)),
     }), flush=True)
 
 
 for scene_name in ("fog-box", "empty-box"):
     for sampler_name in ("independent", "multijitter"):
-        measure(scene_name, sampler_name)
+        for samples in A.spp:
+            measure(scene_name, sampler_name, samples)

@@ -122,17 +122,18 @@ fn beside(out: &Path, rows: &[Value]) -> Result<String, String> {
     let path = out.join("ours.json");
     let ours = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let ours: Value = serde_json::from_str(&ours).map_err(|e| format!("{}: {e}", path.display()))?;
-    let mut text = String::from("\n## Mitsuba 3 beside ours, 16 samples per pixel, one thread\n\n");
-    text += "| renderer | scene | samples/s | E headline | E whole frame | mean Y | ours, headline | ours, whole frame |\n";
-    text += "|---|---|---|---|---|---|---|---|\n";
+    let mut text = String::from("\n## Mitsuba 3 beside ours, one thread\n\n");
+    text += "| renderer | scene | spp | samples/s | E headline | E whole frame | mean Y | ours, headline | ours, whole frame |\n";
+    text += "|---|---|---|---|---|---|---|---|---|\n";
     for row in rows {
         let number = |key: &str| row[key].as_f64().unwrap_or(f64::NAN);
         let own = ours_on(&ours, &row["scene"], &row["spp"]).ok_or("our own figures lack Mitsuba's scene")?;
         let times = |key: &str| own[key].as_f64().unwrap_or(f64::NAN) / number(key);
         text += &format!(
-            "| {} | {} | {:.0} k | {:.1} | {:.1} | {:.4} | {:.2} times | {:.2} times |\n",
+            "| {} | {} | {} | {:.0} k | {:.1} | {:.1} | {:.4} | {:.2} times | {:.2} times |\n",
             row["renderer"].as_str().unwrap_or_default(),
             row["scene"].as_str().unwrap_or_default(),
+            row["spp"],
             number("samples_per_second") / 1e3,
             number("headline"),
             number("whole"),

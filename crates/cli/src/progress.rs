@@ -81,7 +81,8 @@ impl Progress {
             Place::Terminal(line) => line.set_message(status.line()),
             Place::Log { form, last } => {
                 let now = Instant::now();
-                if is_due(*last, now) {
+                // the end is told by `finish`, once
+                if status.done < 1.0 && is_due(*last, now) {
                     *last = Some(now);
                     write_log(*form, status);
                 }

@@ -1,5 +1,6 @@
 //! SIGINT, SIGTERM and SIGHUP: the first asks the run to end well, a second one ends it at once.
 
+use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -33,37 +34,75 @@ impl Stop {
 ///
 /// # Errors
 /// If the system refuses a handler.
-pub fn watch() -> Result<Stop, ctrlc::Error> {
+pub fn watch() -> io::Result<Stop> {
     watch_and(|| {})
 }
 
 /// Watches as [`watch`] does, and calls `on_first` at the first signal, after the flag is set.
 ///
-/// A signal that is ignored on purpose stays so, as under `nohup` or in the background of a script; then none is watched
-/// for, and a signal that is not ignored ends the process at once.
+/// A signal that is ignored on purpose stays so, as SIGHUP under `nohup` and SIGINT in the background of a script; the others
+/// are watched for.
 ///
 /// # Errors
 /// If the system refuses a handler.
-pub fn watch_and(on_first: impl Fn() + Send + 'static) -> Result<Stop, ctrlc::Error> {
+pub fn watch_and(on_first: impl Fn() + Send + 'static) -> io::Result<Stop> {
     let stop = Stop::new();
     let flag = stop.clone();
     // runs on a thread of its own, not inside the signal handler, so any call is allowed
-    let watched = ctrlc::try_set_handler(move || {
+    system::on_signal(move || {
         if flag.again() {
             std::process::exit(130);
         }
         on_first();
         tracing::warn!("stopping after the work in hand; interrupt again to end at once");
-    });
-    match watched {
-        Err(ctrlc::Error::MultipleHandlers) => {
-            tracing::info!(
-                "started with signals ignored: an interruption leaves the last checkpoint, but no image"
-            );
-        }
-        other => other?,
-    }
+    })?;
     Ok(stop)
+}
+
+/// Lets writes beyond a limit on the size of files (`ulimit -f`) fail with an error, where the signal would end the process
+/// without a word.
+///
+/// # Errors
+/// If the system refuses a handler.
+pub fn survive_file_limits() -> io::Result<()> {
+    #[cfg(unix)]
+    signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
+    Ok(())
+}
+
+#[cfg(unix)]
+mod system {
+    use std::io;
+
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+
+    /// Calls `action` at each signal that is not ignored.
+    pub fn on_signal(action: impl Fn() + Send + 'static) -> io::Result<()> {
+        let ignored = ignored();
+        let watched = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|s| ignored >> (s - 1) & 1 == 0);
+        let mut signals = Signals::new(watched)?;
+        let watch = move || signals.forever().for_each(|_| action());
+        std::thread::Builder::new().name("tyndall-signals".into()).spawn(watch).map(|_| ())
+    }
+
+    /// The signals that this process was started to ignore, one bit each from signal 1 on, as Linux tells it. Other systems do not
+    /// tell: there all are watched for.
+    fn ignored() -> u64 {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let mask = status.lines().find_map(|l| l.strip_prefix("SigIgn:"));
+        mask.and_then(|m| u64::from_str_radix(m.trim(), 16).ok()).unwrap_or(0)
+    }
+}
+
+#[cfg(not(unix))]
+mod system {
+    use std::io;
+
+    /// Calls `action` at each interruption.
+    pub fn on_signal(action: impl Fn() + Send + 'static) -> io::Result<()> {
+        ctrlc::set_handler(action).map_err(io::Error::other)
+    }
 }
 
 #[cfg(test)]

@@ -121,3 +121,84 @@ fn info_finds_contradicting_boundaries() {
     assert_eq!(count(scene(told, "haze", "")), 0, "the camera's medium is declared");
     assert!(count(scene(told, "", "haze")) > 0, "the sides are swapped");
 }
+
+/// The rows of a table, and the index of a column.
+fn table(place: &Place, name: &str) -> (Vec<Vec<f64>>, Vec<String>) {
+    let text = String::from_utf8(place.read(name)).expect("text");
+    let mut lines = text.lines().filter(|l| !l.starts_with('#'));
+    let header = lines.next().expect("a header").split(',').map(str::to_owned).collect();
+    (lines.map(|l| l.split(',').map(|c| c.parse().expect("a number")).collect()).collect(), header)
+}
+
+fn column(header: &[String], name: &str) -> usize {
+    header.iter().position(|h| h == name).unwrap_or_else(|| panic!("{name} in {header:?}"))
+}
+
+#[test]
+fn what_is_known_of_errors_is_told() {
+    let place = Place::new();
+    let ran = place.ok("render --resolution 16x16 --spp 4 --errors replicated -o a.exr -o a.csv");
+    assert!(
+        ran.err.contains("256 of 256 pixels have too few samples for errors of their own"),
+        "{}",
+        ran.err
+    );
+    let (rows, header) = table(&place, "a.csv");
+    let all = |name: &str, value: f64| rows.iter().all(|r| r[column(&header, name)] == value);
+    assert!(all("statistics.samples [1]", 4.0) && all("statistics.pooled [1]", 1.0));
+    place.ok("render --resolution 16x16 --spp 64 -o b.exr -o b.csv");
+    let (rows, header) = table(&place, "b.csv");
+    let at = column(&header, "statistics.dominated [1]");
+    let flagged = rows.iter().filter(|r| r[at] == 1.0).count();
+    assert!(flagged > 0, "64 samples a pixel leave pixels that one sample dominates");
+    let diff = place.ok("diff a.exr b.exr");
+    assert!(diff.out.contains(&format!(", {flagged} of B")), "{}", diff.out);
+    assert!(diff.out.contains("errors are pooled over tiles in 256 pixels of A, 0 of B"), "{}", diff.out);
+}
+
+#[test]
+fn regions_are_means_with_their_errors() {
+    let place = Place::new();
+    place.ok("render --resolution 16x16 --spp 16 --quiet -o a.exr -o a.csv");
+    place.ok("develop a.exr -o r.csv --region 2,5,3,9 --probe 7,8");
+    let ((rows, header), (regions, names)) = (table(&place, "a.csv"), table(&place, "r.csv"));
+    let inside = |r: &&Vec<f64>| (2.0..5.0).contains(&r[0]) && (3.0..9.0).contains(&r[1]);
+    let (value, se) = (column(&header, "G [W m^-2 sr^-1]"), column(&header, "G se"));
+    let (mut sum, mut squares) = (0.0, 0.0);
+    rows.iter().filter(inside).for_each(|r| (sum, squares) = (sum + r[value], squares + r[se] * r[se]));
+    let cell = |row: usize, name: &str| regions[row][column(&names, name)];
+    assert_eq!([cell(1, "x0"), cell(1, "x1"), cell(1, "y0"), cell(1, "y1")], [2.0, 5.0, 3.0, 9.0]);
+    assert_eq!((cell(1, "pixels"), cell(1, "statistics.samples [1]")), (18.0, 288.0));
+    assert!((cell(1, "G [W m^-2 sr^-1]") / (sum / 18.0) - 1.0).abs() < 1e-6);
+    assert!((cell(1, "G se") / (squares.sqrt() / 18.0) - 1.0).abs() < 1e-6);
+    let pixel = rows.iter().find(|r| (r[0], r[1]) == (7.0, 8.0)).expect("inside");
+    assert_eq!((cell(0, "pixels"), cell(0, "G se")), (1.0, pixel[se]));
+    let outside = place.run("develop a.exr -o x.csv --region 8,17,0,4");
+    assert!(outside.refusal().contains("region 8,17,0,4 lies outside"), "{}", outside.err);
+}
+
+#[test]
+fn spectral_cubes_as_netcdf() {
+    let place = Place::new();
+    let job = "render --resolution 8x8 --spp 4 --quiet --bands 400:700:100 --split-orders 0,1+ --aov depth";
+    place.ok(&format!("{job} -o a.nc -o a.film -o a.exr"));
+    let cube = place.read("a.nc");
+    for name in [
+        "wavelength_bounds",
+        "radiance_se",
+        "order1plus_radiance",
+        "depth_Z",
+        "statistics_samples",
+        "W m^-2 sr^-1 nm^-1",
+    ] {
+        assert!(cube.windows(name.len()).any(|w| w == name.as_bytes()), "{name}");
+    }
+    // the same from the film, and from EXR
+    for source in ["a.film", "a.exr"] {
+        place.ok(&format!("develop {source} -o b.nc --force"));
+        assert!(place.read("b.nc") == cube, "{source}");
+    }
+    place.ok(&format!("{job} -o a.nc"));
+    let refused = place.run(&format!("{job} --seed 9 -o a.nc"));
+    assert!(refused.refusal().contains("a.nc: exists and is not the result of this job"), "{}", refused.err);
+}

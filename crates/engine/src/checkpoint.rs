@@ -119,6 +119,9 @@ fn read(path: &Path, job: &Job) -> Result<State, EngineError> {
         if !differences.is_empty() {
             return Err(EngineError::OtherJob { path: path.into(), differences });
         }
+        if let Some(what) = header.film.difference(&job.film) {
+            return Err(EngineError::damaged(path, format!("its film is not that of its job: {what}")));
+        }
         Ok(header.film.check_size(limit)?)
     })?;
     Ok(state)

@@ -29,6 +29,8 @@ pub const MAGIC: [u8; 8] = *b"TYNDFILM";
 pub const VERSION: u32 = 1;
 const CHECKSUM: u64 = 32;
 const LEVEL: i32 = 1;
+/// No zstd stream unpacks to more: a block of 4 bytes stands for 128 KiB at most (RFC 8878, 3.1.1.2).
+const EXPANSION: u64 = (128 << 10) / 4;
 
 /// What a file says of itself.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -141,6 +143,14 @@ pub fn read(
     let mut body = BufReader::new(file).take(length - CHECKSUM);
     let header = read_header(&mut body, length, path)?;
     header.film.validate().and_then(|()| header.film.check_size(limit))?;
+    let justified = u128::from(length) * u128::from(EXPANSION);
+    if header.film.bytes() > justified {
+        let what = format!(
+            "announces {} bytes of sums, its {length} bytes can hold {justified}",
+            header.film.bytes()
+        );
+        return Err(EngineError::damaged(path, what));
+    }
     accept(&header)?;
     let state = read_state(&mut body, &header, path)?;
     Ok((header, state))

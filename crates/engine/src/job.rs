@@ -179,6 +179,13 @@ impl Job {
         }
     }
 
+    /// Mean samples per pixel of this job (or shard); `None` with a target, which decides that later.
+    pub fn mean_spp(&self) -> Option<f64> {
+        let window = &self.film.bounds;
+        let samples = || schedule::cost(window, &self.samples(), &self.guide) as f64;
+        self.target.is_none().then(|| samples() / window.area() as f64)
+    }
+
     /// Everything that the bits depend on, as (name, value).
     pub fn identity(&self) -> Vec<(String, String)> {
         let film = &self.film;

@@ -233,46 +233,73 @@ fn a_checkpoint_of_another_job_is_refused_with_what_differs() {
     assert!(checkpoints.load(&job).unwrap().notes.is_empty());
 }
 
-/// Mutated bytes, with and without a checksum made to fit: refused or read, never a panic.
+/// Mutated bytes, with and without a checksum made to fit: refused, or read and gone on from; never a panic.
 #[test]
 fn mutated_checkpoints_never_panic() {
+    let target = Some(Target { pilot: 16, ..Target::luminance(0.5) });
+    let plain = Job::new(spec(8, 8, ErrorMode::Conservative), 64);
+    let adaptive = Job { target, ..Job::new(spec(8, 8, ErrorMode::REPLICATED), 64) };
+    for (seed, job) in [(17, plain), (18, adaptive)] {
+        let (refused, read) = mutate(&job, seed, 1000);
+        assert!(refused > 800, "{refused} refused, {read} read");
+    }
+}
+
+/// Numbers of mutated checkpoints that were refused and read.
+fn mutate(job: &Job, seed: u64, rounds: u32) -> (u32, u32) {
     let pass = Hashed::new(3, Shape::Smooth);
-    let job = Job::new(spec(8, 8, ErrorMode::Conservative), 64);
-    let (folder, checkpoints) = finished(&job, &pass);
+    let (folder, checkpoints) = stopped(job, &pass);
     let original = fs::read(checkpoints.path()).unwrap();
     let path = folder.path().join("fuzz.film");
     let fuzzed = Checkpoints::new(&path, Duration::ZERO);
-    let mut rng = Rng::new(17);
+    let elsewhere = Checkpoints::new(folder.path().join("on.ckpt"), Duration::from_secs(60));
+    let mut rng = Rng::new(seed);
     let (mut refused, mut read) = (0, 0);
-    for round in 0..2000 {
-        let mut bytes = original.clone();
-        for _ in 0..1 + rng.below(4) {
-            let at = rng.below(bytes.len() as u32) as usize;
-            match rng.below(5) {
-                0 => bytes.truncate(at.max(1)),
-                1 => bytes[at] = rng.u32() as u8,
-                2 => bytes.insert(at, b"0123456789-[]{}\",:"[rng.below(18) as usize]),
-                3 => drop(bytes.drain(at..(at + rng.below(40) as usize).min(bytes.len()))),
-                _ => bytes[at] ^= 1 << rng.below(8),
-            }
-            bytes.resize(bytes.len().max(1), 0);
-        }
-        if round % 4 != 0 && bytes.len() > 40 {
-            let body = bytes.len() - 32;
-            let hash = *blake3::hash(&bytes[..body]).as_bytes();
-            bytes[body..].copy_from_slice(&hash);
-        }
-        fs::write(&path, &bytes).unwrap();
-        match fuzzed.load(&job) {
+    for round in 0..rounds {
+        fs::write(&path, mutated(&original, &mut rng, round % 4 != 0)).unwrap();
+        match fuzzed.load(job) {
             Ok(resumed) => {
                 read += 1;
                 let _ = resumed.state.film.develop();
+                go(job, &pass, resumed.state, &elsewhere, &Cancel::default(), &mut Silent);
             }
             Err(_) => refused += 1,
         }
         let _ = tyndall_engine::shard::merge(&[path.clone(), path.clone()], 1 << 24);
     }
-    assert!(refused > 1600, "{refused} refused, {read} read");
+    (refused, read)
+}
+
+/// A checkpoint of a run that was stopped in its middle.
+fn stopped(job: &Job, pass: &Hashed) -> (tempfile::TempDir, Checkpoints) {
+    let folder = tempfile::tempdir().unwrap();
+    let checkpoints = Checkpoints::new(folder.path().join("a.ckpt"), Duration::from_secs(60));
+    let cancel = Cancel::default();
+    let mut sink = StopAfter { patches: 4, cancel: cancel.clone() };
+    let end = go(job, pass, State::start(job).unwrap(), &checkpoints, &cancel, &mut sink);
+    assert_eq!(end, End::Cancelled);
+    (folder, checkpoints)
+}
+
+fn mutated(original: &[u8], rng: &mut Rng, with_checksum: bool) -> Vec<u8> {
+    let mut bytes = original.to_vec();
+    for _ in 0..1 + rng.below(4) {
+        let at = rng.below(bytes.len() as u32) as usize;
+        match rng.below(5) {
+            0 => bytes.truncate(at.max(1)),
+            1 => bytes[at] = rng.u32() as u8,
+            2 => bytes.insert(at, b"0123456789-[]{}\",:"[rng.below(18) as usize]),
+            3 => drop(bytes.drain(at..(at + rng.below(40) as usize).min(bytes.len()))),
+            _ => bytes[at] ^= 1 << rng.below(8),
+        }
+        bytes.resize(bytes.len().max(1), 0);
+    }
+    if with_checksum && bytes.len() > 40 {
+        let body = bytes.len() - 32;
+        let hash = *blake3::hash(&bytes[..body]).as_bytes();
+        bytes[body..].copy_from_slice(&hash);
+    }
+    bytes
 }
 
 /// A header may announce any size: it is refused by the limit, before memory is taken.
@@ -294,6 +321,39 @@ fn an_announced_giant_is_refused_before_allocation() {
     let hash = *blake3::hash(&bytes).as_bytes();
     bytes.extend(hash);
     fs::write(checkpoints.path(), bytes).unwrap();
-    let error = tyndall_engine::shard::merge(&[checkpoints.path().into()], 1 << 30).unwrap_err().to_string();
+    let merge =
+        |limit| tyndall_engine::shard::merge(&[checkpoints.path().into()], limit).unwrap_err().to_string();
+    let error = merge(1 << 30);
     assert!(error.contains("4000000000 x 4000000000 pixels with 3 channels need"), "{error}");
+}
+
+/// Even where memory is plenty, no more is taken than the file's own size can unpack to.
+#[test]
+fn a_film_beyond_what_its_file_can_hold_is_refused_before_allocation() {
+    let pass = Hashed::new(3, Shape::Smooth);
+    let job = Job::new(spec(64, 64, ErrorMode::Conservative), 64);
+    let (_folder, checkpoints) = finished(&job, &pass);
+    let bytes = fs::read(checkpoints.path()).unwrap();
+    let size = u64::from_le_bytes(std::array::from_fn(|k| bytes[12 + k])) as usize;
+    let mut header: serde_json::Value = serde_json::from_slice(&bytes[20..20 + size]).unwrap();
+    header["film"]["resolution"] = [1_000_000u64; 2].into();
+    header["film"]["bounds"]["x1"] = 1_000_000u64.into();
+    header["film"]["bounds"]["y1"] = 1_000_000u64.into();
+    fs::write(checkpoints.path(), forged(&bytes, &header)).unwrap();
+    let read = tyndall_engine::container::read(checkpoints.path(), u64::MAX, |_| Ok(()));
+    let error = read.map(|_| ()).unwrap_err().to_string();
+    assert!(error.contains("bytes of sums, its"), "{error}");
+}
+
+/// The film with another header and a checksum that fits.
+fn forged(film: &[u8], header: &serde_json::Value) -> Vec<u8> {
+    let size = u64::from_le_bytes(std::array::from_fn(|k| film[12 + k])) as usize;
+    let header = serde_json::to_vec(header).unwrap();
+    let mut bytes = film[..12].to_vec();
+    bytes.extend((header.len() as u64).to_le_bytes());
+    bytes.extend(header);
+    bytes.extend(&film[20 + size..film.len() - 32]);
+    let hash = *blake3::hash(&bytes).as_bytes();
+    bytes.extend(hash);
+    bytes
 }

@@ -136,8 +136,10 @@ fn replace<T>(
     fault::check(FaultPoint::Sync, target).and_then(|()| file.sync_all()).map_err(step("write to disk"))?;
     drop(file);
     fault::check(FaultPoint::Rename, target)
-        .and_then(|()| temporary.persist(target).map_err(|e| e.error))
+        .and_then(|()| fs::rename(&temporary, target))
         .map_err(step("put in place"))?;
+    // nothing is left under its name to remove
+    let _ = temporary.keep();
     sync_folder(folder, target).map_err(step("write the folder entry to disk"))?;
     Ok(value)
 }

@@ -11,9 +11,11 @@ use crate::planes::Planes;
 use crate::spec::Layout;
 use crate::{ErrorMode, FilmSpec};
 
+mod pooled;
 mod student;
 mod summary;
 
+pub use pooled::Pooled;
 pub use student::{t_quantile, t_tail};
 pub use summary::ErrorSummary;
 

@@ -164,3 +164,28 @@ fn sparse_replicates_pool_their_tile() {
     assert!((f64::from(d.y_error[17]) / expected - 1.0).abs() < 0.06, "{}", d.y_error[17]);
     assert_eq!((d.summary.pooled, d.dof[0]), (256, 3 * 256));
 }
+
+#[test]
+fn pooled_covariances_agree_with_the_errors_and_see_what_channels_share() {
+    let samples = draw(64);
+    let film = film(&spec(ErrorMode::REPLICATED, Weights::Unit), &samples);
+    let (d, p) = (film.develop(), film.pooled());
+    assert_eq!(p.dof, 7);
+    for c in 0..3 {
+        close(d.mean[c][0], p.mean[c]);
+        close(d.error[c][0], p.se(c));
+    }
+    let replicate = |b: usize, c: usize| -> f64 {
+        let all: Vec<f64> = samples.iter().skip(b).step_by(8).map(|s| f64::from(s.1[c])).collect();
+        all.iter().sum::<f64>() / all.len() as f64
+    };
+    let by_hand = |a: usize, c: usize| -> f64 {
+        (0..8).map(|b| (replicate(b, a) - p.mean[a]) * (replicate(b, c) - p.mean[c])).sum::<f64>() / 56.0
+    };
+    for (a, c) in [(0, 1), (0, 2), (1, 2)] {
+        assert!((p.covariance(a, c) / by_hand(a, c) - 1.0).abs() < 1e-5);
+        assert_eq!(p.covariance(a, c), p.covariance(c, a));
+    }
+    let unknown = self::film(&spec(ErrorMode::Conservative, Weights::Unit), &samples).pooled();
+    assert!(unknown.covariance(0, 1).is_infinite());
+}

@@ -4,10 +4,14 @@
 //! It is slow and simple on purpose, and shares no estimator with `volpath`.
 
 use crate::observer::{Event, PathObserver, Vertex};
-use tyndall_base::{Vec3, warp};
+use tyndall_base::{Vec3, rng::Pcg32, warp};
 use tyndall_geometry::Ray;
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::{MediumId, Scene, sampler::PathSampler};
+use tyndall_transport::{
+    MediumId, Scene,
+    media::{Heterogeneous, Homogeneous, Medium},
+    sampler::PathSampler,
+};
 
 /// Radiance along `ray` at the hero's wavelength; other lanes are zero.
 pub fn li<const N: usize>(
@@ -29,15 +33,16 @@ pub fn li<const N: usize>(
 
         // a collision in the medium, if it comes before the surface
         if let Some(m) = scene.medium(medium) {
-            let m = m.homogeneous(w);
-            let (sigma_a, sigma_s) = (m.sigma_a[0], m.sigma_s[0]);
-            let t = warp::sample_exponential(sampler.next_1d(), sigma_a + sigma_s);
-            if t < t_hit {
-                let p = ray.at(t);
-                watch(seen, Event::Medium, p, t, depth, medium);
-                if sampler.next_1d() * (sigma_a + sigma_s) < sigma_a {
+            let flight = match m {
+                Medium::Homogeneous(m) => homogeneous(m, t_hit, w, sampler),
+                Medium::Heterogeneous(m) => delta_tracking(m, &ray, t_hit, w, &mut sampler.stream()),
+            };
+            if let Some(collision) = flight {
+                let p = ray.at(collision.t);
+                watch(seen, Event::Medium, p, collision.t, depth, medium);
+                if let Fate::Absorbed { le } = collision.fate {
                     // absorbed where the medium emits le
-                    let value = hero(radiance_scale * m.le[0]);
+                    let value = hero(radiance_scale * le);
                     seen.contribution(depth, &value);
                     return l + value;
                 }
@@ -45,8 +50,13 @@ pub fn li<const N: usize>(
                     break;
                 }
                 depth += 1;
-                let u = sampler.next_2d();
-                ray = Ray { time: ray.time, ..Ray::new(p, m.phase.sample(-ray.d, [u.x, u.y], w).wi) };
+                let (uc, u) = (sampler.next_1d(), sampler.next_2d());
+                let wi = match m {
+                    Medium::Homogeneous(m) => Some(m.phase.sample(-ray.d, [u.x, u.y], w).wi),
+                    Medium::Heterogeneous(m) => m.scatter(p, -ray.d, uc, [u.x, u.y], w),
+                };
+                let Some(wi) = wi else { break };
+                ray = Ray { time: ray.time, ..Ray::new(p, wi) };
                 continue;
             }
         }
@@ -95,6 +105,62 @@ pub fn li<const N: usize>(
         ray = Ray { time: ray.time, ..Ray::new(s.origin(wi), wi) };
     }
     l
+}
+
+/// A collision that is not null.
+struct Collision {
+    t: f32,
+    fate: Fate,
+}
+
+enum Fate {
+    Absorbed { le: f32 },
+    Scattered,
+}
+
+/// The first collision before `t_max` where the coefficients are the same everywhere.
+fn homogeneous<const N: usize>(
+    m: &Homogeneous,
+    t_max: f32,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+) -> Option<Collision> {
+    let m = m.at(w);
+    let (sigma_a, sigma_s) = (m.sigma_a[0], m.sigma_s[0]);
+    let t = warp::sample_exponential(sampler.next_1d(), sigma_a + sigma_s);
+    if t >= t_max {
+        return None;
+    }
+    let absorbed = sampler.next_1d() * (sigma_a + sigma_s) < sigma_a;
+    Some(Collision { t, fate: if absorbed { Fate::Absorbed { le: m.le[0] } } else { Fate::Scattered } })
+}
+
+/// The same by delta tracking (Woodcock et al. 1965) with one majorant for the whole medium.
+fn delta_tracking<const N: usize>(
+    m: &Heterogeneous,
+    ray: &Ray,
+    t_max: f32,
+    w: &Wavelengths<N>,
+    rng: &mut Pcg32,
+) -> Option<Collision> {
+    let majorant = m.majorant(w)[0];
+    let (mut t, t_end) = m.clip(ray, t_max)?;
+    loop {
+        t += warp::sample_exponential(rng.next_f32(), majorant);
+        // without extinction the first flight is infinite or not a number
+        if t.is_nan() || t >= t_end {
+            return None;
+        }
+        let point = m.at(ray.at(t), w);
+        let (sigma_a, sigma_s) = (point.sigma_a[0], point.sigma_s[0]);
+        let u = rng.next_f32() * majorant;
+        if u < sigma_a {
+            return Some(Collision { t, fate: Fate::Absorbed { le: point.emitted[0] / sigma_a } });
+        }
+        if u < sigma_a + sigma_s {
+            return Some(Collision { t, fate: Fate::Scattered });
+        }
+    }
 }
 
 fn watch<const N: usize, O: PathObserver<N>>(

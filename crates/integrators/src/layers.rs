@@ -164,7 +164,10 @@ impl<const N: usize> FirstSurface<N> {
             let t = hit.as_ref().map_or(f32::INFINITY, |h| h.t);
             if let Some(inside) = Inside::of(scene, medium, w) {
                 // an unbounded segment of vacuum-like lanes stays open: 0 * infinity is no thickness
-                tau += inside.sigma_t.map(|s| if s > 0.0 { s * t } else { 0.0 });
+                tau += match inside.varying {
+                    None => inside.sigma_t.map(|s| if s > 0.0 { s * t } else { 0.0 }),
+                    Some(m) => m.optical_depth(&ray, t, w),
+                };
             }
             found.transmittance = exp(-tau);
             let Some(hit) = hit else { return found };

@@ -7,12 +7,14 @@ pub mod analog;
 pub mod direct;
 pub mod equiangular;
 pub mod glow;
+pub mod isa;
 pub mod layers;
 pub mod medium;
 pub mod observer;
 pub mod pixel;
 pub mod settings;
 pub mod shadow;
+pub mod tracking;
 pub mod volpath;
 pub mod weight;
 

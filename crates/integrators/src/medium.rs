@@ -1,9 +1,12 @@
-//! Free flight and transmittance at the path's wavelengths in a homogeneous medium.
+//! The medium a path is in; free flight and transmittance at the path's wavelengths where it is homogeneous.
 
 use crate::{settings::Settings, weight::exp};
 use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::{MediumId, Scene};
+use tyndall_transport::{
+    MediumId, Scene,
+    media::{Heterogeneous, Medium},
+};
 
 /// Coefficients \[1/m\] of the medium a path is in, looked up once on entering it.
 #[derive(Clone, Copy, Debug)]
@@ -18,14 +21,26 @@ pub struct Inside<'s, const N: usize> {
     pub le: Spectrum<N>,
     /// Phase function.
     pub phase: &'s PhaseFunction,
+    /// The medium where it varies in space: then the coefficients here are zero, and [`crate::tracking`] serves.
+    pub varying: Option<&'s Heterogeneous>,
 }
 
 impl<'s, const N: usize> Inside<'s, N> {
     /// The medium `id` at the wavelengths `w`; `None` in vacuum.
     #[inline(always)]
     pub fn of(scene: &'s Scene, id: MediumId, w: &Wavelengths<N>) -> Option<Self> {
-        let m = scene.medium(id)?.homogeneous(w);
-        Some(Self { sigma_a: m.sigma_a, sigma_s: m.sigma_s, sigma_t: m.sigma_t(), le: m.le, phase: m.phase })
+        Some(match scene.medium(id)? {
+            Medium::Homogeneous(m) => {
+                let m = m.at(w);
+                let (sigma_a, sigma_s, sigma_t) = (m.sigma_a, m.sigma_s, m.sigma_t());
+                Self { sigma_a, sigma_s, sigma_t, le: m.le, phase: m.phase, varying: None }
+            }
+            Medium::Heterogeneous(m) => {
+                let z = Spectrum::ZERO;
+                let phase = &PhaseFunction::Isotropic;
+                Self { sigma_a: z, sigma_s: z, sigma_t: z, le: z, phase, varying: Some(m) }
+            }
+        })
     }
 
     /// exp(-sigma_t t) per lane (Beer-Lambert).

@@ -2,6 +2,7 @@
 
 use crate::{
     analog,
+    isa::{Isa, Set},
     layers::{Layers, Recorder},
     observer::PathObserver,
     settings::Settings,
@@ -84,8 +85,8 @@ pub struct PixelPass {
     pub seed: u64,
     /// Independent nets that a pixel's samples are dealt to.
     pub replicates: u32,
-    /// Run the portable code even where the processor has AVX2: the bits are the same, as a test shows.
-    pub portable: bool,
+    /// Instructions to use: the bits are the same, as a test shows.
+    pub isa: Isa,
 }
 
 /// A sample on its way: where it started and what it draws from.
@@ -109,18 +110,26 @@ impl Pass for PixelPass {
 }
 
 impl PixelPass {
-    /// Picks the widest instruction set; every version runs the same operations.
+    /// Every version runs the same operations; layers have the portable one alone.
     fn dispatch<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
-        #[cfg(target_arch = "x86_64")]
-        if !self.portable && self.layers.is_empty() && is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has AVX2, as was just asked.
-            return unsafe { self.run_avx2::<N>(unit, guide, out) };
+        if !self.layers.is_empty() {
+            return self.run_layered::<N>(unit, guide, out);
         }
-        if self.layers.is_empty() {
-            self.run::<N>(unit, guide, out);
-        } else {
-            self.run_layered::<N>(unit, guide, out);
+        match self.isa.set() {
+            Set::Portable => self.run::<N>(unit, guide, out),
+            // SAFETY: a value of `Isa` exists only where the processor has its instructions.
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx2 => unsafe { self.run_avx2::<N>(unit, guide, out) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx512 => unsafe { self.run_avx512::<N>(unit, guide, out) },
         }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512dq,avx512bw,avx512cd")]
+    fn run_avx512<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
+        self.run::<N>(unit, guide, out);
     }
 
     #[cfg(target_arch = "x86_64")]

@@ -27,6 +27,9 @@ pub struct Settings {
     pub light_sampling: bool,
     /// `exp(-sigma_t d)` on shadow rays; off: a free flight along the shadow ray that passes or does not.
     pub exact_transmittance: bool,
+    /// Shadow rays through media that vary take what is certain of the extinction in closed form (residual ratio
+    /// tracking); off: ratio tracking.
+    pub residual: bool,
     /// Weight by the albedo; off: absorption ends the path.
     pub survival: bool,
     /// Distances drawn towards a light.
@@ -51,6 +54,7 @@ impl Default for Settings {
             regularize: false,
             light_sampling: true,
             exact_transmittance: true,
+            residual: true,
             survival: true,
             equiangular: Equiangular::Auto,
             equiangular_depth: u32::MAX,

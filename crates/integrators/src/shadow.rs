@@ -1,6 +1,6 @@
 //! Visibility and transmittance between two points, through boundaries that do not bend light.
 
-use crate::{medium::Inside, settings::Settings};
+use crate::{medium::Inside, settings::Settings, tracking};
 use tyndall_base::Vec3;
 use tyndall_geometry::Ray;
 use tyndall_spectral::{Spectrum, Wavelengths};
@@ -61,7 +61,10 @@ pub fn shadow<const N: usize>(
         let hit = if obstacles.boundary { scene.next_boundary(&ray) } else { None };
         let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
         if let Some(inside) = &inside {
-            attenuate(&mut s, inside, t, settings, sampler)?;
+            match inside.varying {
+                None => attenuate(&mut s, inside, t, settings, sampler)?,
+                Some(m) => tracking::transmit(m, &ray, t, w, settings, sampler.stream(), &mut s)?,
+            }
         }
         let Some(hit) = hit else { return Some(s) };
         let isect = scene.interaction(&ray, &hit);

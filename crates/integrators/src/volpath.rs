@@ -2,7 +2,10 @@
 //!
 //! Distances are drawn from the hero's transmittance, collisions carry the albedo as a weight, shadow rays the exact
 //! transmittance; lights are met by chance, by light sampling and by equiangular sampling, combined by the balance
-//! heuristic over techniques and wavelengths at once (see [`crate::weight`]).
+//! heuristic over techniques and wavelengths at once (see [`crate::weight`]). Media that vary in space are crossed by
+//! null collisions (see [`crate::tracking`]).
+
+mod varying;
 
 use crate::{
     direct::{self, Rival, Scatterer},
@@ -91,7 +94,11 @@ impl<'s, const N: usize> Walk<'s, N> {
     fn step(&mut self, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> bool {
         let hit = self.scene.intersect(&self.ray);
         let t_max = hit.as_ref().map_or(f32::INFINITY, |h| h.t);
-        if let Some(inside) = self.inside {
+        if let Some(medium) = self.inside.and_then(|inside| inside.varying) {
+            if let Some(goes_on) = self.travel(medium, t_max, sampler, seen) {
+                return goes_on;
+            }
+        } else if let Some(inside) = self.inside {
             self.emission(&inside, t_max, seen);
             if inside.only_absorbs(self.settings) {
                 self.absorb(&inside, t_max);

@@ -74,6 +74,28 @@ impl<const N: usize> PathWeight<N> {
         self.r_u *= pdf_over_hero;
     }
 
+    /// A null collision: coefficient `sigma_n` per lane, and what the techniques that choose a light would have put
+    /// there, `competing`; false when the hero cannot have made it.
+    #[inline(always)]
+    #[must_use]
+    pub fn null(&mut self, sigma_n: Spectrum<N>, competing: Spectrum<N>) -> bool {
+        let hero = sigma_n.hero();
+        if hero.is_nan() || hero <= 0.0 {
+            return false;
+        }
+        let inv = 1.0 / hero;
+        self.fly(sigma_n * inv, sigma_n * inv);
+        self.compete(competing * inv);
+        true
+    }
+
+    /// What the techniques that choose a light have in place of an event of flight, over the hero's density.
+    #[inline(always)]
+    pub fn compete(&mut self, density_over_hero: Spectrum<N>) {
+        self.r_l *= density_over_hero;
+        self.r_e *= density_over_hero;
+    }
+
     /// Survived a roulette with probability `q`, the same for all lanes.
     #[inline(always)]
     pub fn survive(&mut self, q: f32) {

@@ -11,6 +11,9 @@ pub enum ErrorKind {
     /// The file could not be opened or read.
     #[error("cannot read the file: {0}")]
     Io(std::io::Error),
+    /// The file is not what it was a moment ago.
+    #[error("the file changed while it was read")]
+    Changed,
     /// The gzip data is damaged or cut off.
     #[error("cannot unpack the gzip file: {0}")]
     Gzip(std::io::Error),

@@ -1,4 +1,4 @@
-//! Files into memory: mapped where large, decompressed where gzipped, refused where not text.
+//! Files into memory: decompressed where gzipped, refused where not text.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -6,11 +6,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::error::{Error, ErrorKind};
-use crate::source::{BOM, Bytes, SourceFile, SourceMap};
+use crate::source::{BOM, SourceFile, SourceMap};
 use crate::span::{Place, Span};
-
-/// Smaller files are read, larger ones mapped.
-const MAP_FROM: u64 = 1 << 20;
 
 /// Offsets have 32 bits, and spans end before the last of them.
 const MAX_BYTES: u64 = u32::MAX as u64 - 1;
@@ -26,7 +23,7 @@ pub(crate) fn load_file(sources: &SourceMap, path: &Path, name: &str) -> Result<
 
 /// Takes text from memory.
 pub(crate) fn load_bytes(sources: &SourceMap, name: &str, bytes: Vec<u8>) -> Result<Arc<SourceFile>, Error> {
-    let bytes = decompress(Bytes::Owned(bytes)).map_err(|kind| Error::in_file(kind, name))?;
+    let bytes = decompress(bytes).map_err(|kind| Error::in_file(kind, name))?;
     add_text(sources, name, None, bytes)
 }
 
@@ -34,30 +31,32 @@ fn add_text(
     sources: &SourceMap,
     name: &str,
     path: Option<&Path>,
-    bytes: Bytes,
+    bytes: Vec<u8>,
 ) -> Result<Arc<SourceFile>, Error> {
     let file = sources.add(name, path.map(Path::to_owned), bytes);
     check_text(&file)?;
     Ok(file)
 }
 
-fn read_bytes(path: &Path) -> Result<Bytes, ErrorKind> {
+fn read_bytes(path: &Path) -> Result<Vec<u8>, ErrorKind> {
     let mut file = File::open(path).map_err(ErrorKind::Io)?;
     let meta = file.metadata().map_err(ErrorKind::Io)?;
     if meta.is_dir() {
         return Err(ErrorKind::Io(io::Error::new(io::ErrorKind::IsADirectory, "it is a directory")));
     }
     check_size(meta.len())?;
-    if meta.len() >= MAP_FROM {
-        // SAFETY: the map is read-only and private to this process; as with every mapped input, nobody may
-        // truncate the file while the scene is in use.
-        let map = unsafe { memmap2::Mmap::map(&file) }.map_err(ErrorKind::Io)?;
-        return decompress(Bytes::Mapped(map));
-    }
-    let mut bytes = Vec::with_capacity(meta.len() as usize);
+    // not mapped: whoever cuts a mapped file short while it is parsed kills the process
+    let mut bytes = Vec::new();
+    let refused =
+        |e: std::collections::TryReserveError| ErrorKind::Io(io::Error::new(io::ErrorKind::OutOfMemory, e));
+    bytes.try_reserve_exact(meta.len() as usize).map_err(refused)?;
     file.by_ref().take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(ErrorKind::Io)?;
     check_size(bytes.len() as u64)?;
-    decompress(Bytes::Owned(bytes))
+    let after = file.metadata().map_err(ErrorKind::Io)?;
+    if (meta.len(), meta.modified().ok()) != (after.len(), after.modified().ok()) {
+        return Err(ErrorKind::Changed);
+    }
+    decompress(bytes)
 }
 
 fn check_size(bytes: u64) -> Result<(), ErrorKind> {
@@ -65,15 +64,15 @@ fn check_size(bytes: u64) -> Result<(), ErrorKind> {
 }
 
 /// Unpacks gzip, which is known by its first bytes and not by the file's name.
-fn decompress(bytes: Bytes) -> Result<Bytes, ErrorKind> {
-    if !bytes.as_slice().starts_with(b"\x1f\x8b") {
+fn decompress(bytes: Vec<u8>) -> Result<Vec<u8>, ErrorKind> {
+    if !bytes.starts_with(b"\x1f\x8b") {
         return Ok(bytes);
     }
     let mut text = Vec::new();
     let decoder = flate2::read::MultiGzDecoder::new(bytes.as_slice());
     decoder.take(MAX_BYTES + 1).read_to_end(&mut text).map_err(ErrorKind::Gzip)?;
     check_size(text.len() as u64)?;
-    Ok(Bytes::Owned(text))
+    Ok(text)
 }
 
 /// Refuses UTF-16 and anything with a NUL near its start.

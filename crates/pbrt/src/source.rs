@@ -6,27 +6,12 @@ use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use crate::span::{FileId, Location, Place, Span};
 
-/// The bytes of a file, owned or mapped.
-pub(crate) enum Bytes {
-    Owned(Vec<u8>),
-    Mapped(memmap2::Mmap),
-}
-
-impl Bytes {
-    pub(crate) fn as_slice(&self) -> &[u8] {
-        match self {
-            Bytes::Owned(v) => v,
-            Bytes::Mapped(m) => m,
-        }
-    }
-}
-
 /// One source file: its name, its text, and an index of its lines that is built on demand.
 pub struct SourceFile {
     id: FileId,
     name: Arc<str>,
     path: Option<PathBuf>,
-    bytes: Bytes,
+    bytes: Vec<u8>,
     line_starts: OnceLock<Vec<u32>>,
     printable: OnceLock<Option<Vec<u8>>>,
 }
@@ -49,7 +34,7 @@ impl SourceFile {
 
     /// The text, decompressed.
     pub fn bytes(&self) -> &[u8] {
-        self.bytes.as_slice()
+        &self.bytes
     }
 
     /// The bytes of a span, cut to the file.
@@ -112,7 +97,7 @@ pub struct SourceMap {
 
 impl SourceMap {
     /// Adds a file and gives it the next number.
-    pub(crate) fn add(&self, name: &str, path: Option<PathBuf>, bytes: Bytes) -> Arc<SourceFile> {
+    pub(crate) fn add(&self, name: &str, path: Option<PathBuf>, bytes: Vec<u8>) -> Arc<SourceFile> {
         let mut files = self.files.write().unwrap_or_else(PoisonError::into_inner);
         let file = Arc::new(SourceFile {
             id: FileId(files.len() as u32),

@@ -9,6 +9,7 @@ pub mod ids;
 pub mod light;
 pub mod material;
 pub mod media;
+pub mod noise;
 pub mod sampler;
 pub mod scene;
 pub mod texture;

@@ -3,7 +3,7 @@
 //! Every result says which job it belongs to: images, PNG files and tables by the hash of the job, films by the identity in
 //! their header, the record of a run by its fields. What says nothing, or belongs to another job, stays.
 
-use crate::{Error, Provenance, Record, image::attribute, table};
+use crate::{Error, Provenance, Record, cube, image::attribute, table};
 use std::path::Path;
 use tyndall_engine::{EngineError, container};
 use tyndall_files::image::{MetaValue, probe_exr, read_png_texts};
@@ -33,6 +33,7 @@ pub fn belongs(path: &Path, ours: &Provenance) -> bool {
         Some("exr") => exr_job(path).as_deref() == Some(&ours.job),
         Some("png") => read_png_texts(path).is_ok_and(|t| t.get(attribute::JOB) == Some(&ours.job)),
         Some("csv") => table::job_of(path).as_deref() == Some(&ours.job),
+        Some("nc") => cube::job_of(path).as_deref() == Some(&ours.job),
         Some("film") => film_identity(path).as_deref() == Some(&ours.settings[..]),
         Some("json") => Record::read(path).is_some_and(|r| same_run(&r, ours)),
         _ => false,

@@ -1,6 +1,6 @@
 //! A film as named planes: what EXR files hold and every other output is made from.
 
-use crate::{Error, Provenance, memory, units};
+use crate::{Error, Provenance, memory, statistics, units};
 use std::{
     fs::File,
     io::Read,
@@ -65,6 +65,7 @@ impl Image {
         let values = planes.fill(frame(), &developed.mean)?;
         let mut errors = planes.fill(frame(), &developed.error)?;
         errors.set("comments", "standard errors of the channels of the same names; inf where unknown");
+        statistics::add(&mut errors, developed)?;
         Ok(Self { values, errors: Some(errors) })
     }
 

@@ -15,6 +15,7 @@
 #![forbid(unsafe_code)]
 
 pub mod camera_matrices;
+pub mod cube;
 pub mod diff;
 pub mod error;
 pub mod existing;
@@ -23,14 +24,18 @@ pub mod image;
 pub mod info;
 pub mod memory;
 pub mod options;
+pub mod page;
 pub mod picture;
 pub mod plan;
+pub mod plot;
 pub mod provenance;
 pub mod record;
 pub mod render;
+pub mod statistics;
 pub mod table;
 pub mod trace;
 pub mod units;
+pub mod validate;
 
 pub use error::Error;
 pub use image::Image;

@@ -11,6 +11,7 @@ use tyndall_engine::Job;
 use tyndall_film::{Channels, ErrorMode, FilmSpec, PixelBounds};
 use tyndall_geometry::Dispatch;
 use tyndall_integrators::{
+    isa::Isa,
     layers::{Aov, Layers},
     pixel::{Lanes, Method, PixelPass},
 };
@@ -122,10 +123,17 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         layers,
         seed,
         replicates,
-        portable: options.dispatch == Dispatch::Portable,
+        isa: isa(options.dispatch)?,
     };
     let integrator = loaded.integrator.name.clone();
     Ok(Plan { loaded, pass, job, range: options.range, spectral: options.spectral, integrator, channels })
+}
+
+fn isa(dispatch: Dispatch) -> Result<Isa, Error> {
+    Isa::choose(dispatch).ok_or_else(|| {
+        let what = format!("--isa: this processor does not have the instructions of {dispatch:?}");
+        Error::options(what, Some("auto takes the fastest that it has; the numbers are the same".into()))
+    })
 }
 
 /// Another size, another part.

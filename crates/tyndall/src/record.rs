@@ -1,7 +1,7 @@
 //! `NAME.run.json`: what was done, how long it took, and the error.
 
 use crate::{Error, Provenance};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::path::Path;
 use tyndall_film::{ErrorSummary, Film};
 
@@ -26,7 +26,8 @@ pub struct Record {
     pub wavelengths: Option<u32>,
     /// Size of the whole image \[pixels\].
     pub resolution: [u32; 2],
-    /// Mean samples per pixel that are in the image.
+    /// Mean samples per pixel that are in the image; an integer in the file where it is whole.
+    #[serde(serialize_with = "integer_if_whole")]
     pub spp: f64,
     /// Times \[s\].
     pub seconds: Seconds,
@@ -90,6 +91,13 @@ pub struct Circumstances {
     pub threads: usize,
     /// All samples that were taken, those of a pilot included.
     pub samples: u64,
+}
+
+/// Every f64 below this is exact as an integer.
+const EXACT: f64 = 9_007_199_254_740_992.0;
+
+fn integer_if_whole<S: Serializer>(v: &f64, s: S) -> Result<S::Ok, S::Error> {
+    if v.fract() == 0.0 && v.abs() < EXACT { s.serialize_i64(*v as i64) } else { s.serialize_f64(*v) }
 }
 
 impl Record {

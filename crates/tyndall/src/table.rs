@@ -1,10 +1,13 @@
-//! An image as a table (CSV): one row a pixel, units in the header.
+//! An image as a table (CSV): one row a pixel or region, units in the header.
+
+mod rows;
 
 use crate::{
     Error, Image,
     image::{attribute, ordered},
-    units,
+    statistics, units,
 };
+pub use rows::{Region, Rows};
 use std::{
     fs::File,
     io::{self, BufRead, BufReader, Write},
@@ -12,54 +15,58 @@ use std::{
 };
 use tyndall_files::{
     atomic::write_atomic,
-    image::{Channel, MetaValue, Window},
+    image::{Channel, MetaValue},
 };
 
 const JOB_LINE: &str = "# job: ";
 
-/// Writes the pixels `rows`, or all of them when there are none, counted in the whole image.
+/// Writes the rows, which are counted in the whole image.
 ///
 /// # Errors
-/// When a pixel lies outside, or writing fails.
-pub fn write(path: &Path, image: &Image, rows: &[(u32, u32)]) -> Result<(), Error> {
-    let window = image.values.window();
-    let inside = |&(x, y): &(u32, u32)| {
-        let (x, y) = (i64::from(x) - i64::from(window.x0), i64::from(y) - i64::from(window.y0));
-        (0..window.width as i64).contains(&x) && (0..window.height as i64).contains(&y)
-    };
-    if let Some((x, y)) = rows.iter().find(|p| !inside(p)) {
-        let what =
-            format!("pixel {x},{y} lies outside the image's window of {} x {}", window.width, window.height);
-        return Err(Error::options(what, Some("pixels count from 0 at the upper left".into())));
-    }
+/// When a row lies outside, or writing fails.
+pub fn write(path: &Path, image: &Image, rows: &Rows) -> Result<(), Error> {
+    rows.check(image.values.window())?;
     let columns = columns(image);
     write_atomic(path, |out| {
-        header(image, &columns, out)?;
-        if rows.is_empty() {
-            (0..window.area()).try_for_each(|p| row(window, &columns, p, out))
-        } else {
-            let index = |(x, y): (u32, u32)| {
-                (i64::from(y) - i64::from(window.y0)) as usize * window.width
-                    + (i64::from(x) - i64::from(window.x0)) as usize
-            };
-            rows.iter().try_for_each(|&pixel| row(window, &columns, index(pixel), out))
-        }
+        header(image, &columns, rows, out)?;
+        rows.write(image.values.window(), &columns, out)
     })?;
     Ok(())
 }
 
-/// A channel and its standard errors.
+/// A channel, with its standard errors where they are known.
 struct Column<'i> {
     channel: &'i Channel,
     errors: Option<&'i [f32]>,
+    /// How pixels make up a region.
+    join: Join,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Join {
+    Mean,
+    Sum,
+    /// Makes no sense for a region.
+    None,
+}
+
+/// Channels as people expect them, then what is known of the errors.
 fn columns(image: &Image) -> Vec<Column<'_>> {
     let errors = |c: &Channel| image.errors.as_ref()?.channel(&c.name);
-    ordered(&image.values).into_iter().map(|channel| Column { channel, errors: errors(channel) }).collect()
+    let values = ordered(&image.values).into_iter().map(|channel| Column {
+        channel,
+        errors: errors(channel),
+        join: Join::Mean,
+    });
+    let find = |name: &str| image.errors.as_ref()?.channels().iter().find(|c| c.name == name);
+    let marks = statistics::NAMES.into_iter().filter_map(|name| {
+        let join = if name == statistics::FREEDOM { Join::None } else { Join::Sum };
+        find(name).map(|channel| Column { channel, errors: None, join })
+    });
+    values.chain(marks).collect()
 }
 
-fn header(image: &Image, columns: &[Column<'_>], out: &mut impl Write) -> io::Result<()> {
+fn header(image: &Image, columns: &[Column<'_>], rows: &Rows, out: &mut impl Write) -> io::Result<()> {
     let text = |name: &str| match image.values.meta.get(name) {
         Some(MetaValue::Text(t)) => Some(t.as_str()),
         _ => None,
@@ -75,9 +82,15 @@ fn header(image: &Image, columns: &[Column<'_>], out: &mut impl Write) -> io::Re
         out,
         "# pixels count from 0 at the upper left; se: standard error of the value before it, in its unit"
     )?;
+    if let Rows::Regions(_) = rows {
+        writeln!(
+            out,
+            "# regions: means over the pixels from x0,y0 up to but not including x1,y1; statistics: sums"
+        )?;
+    }
     let absolute = image.is_absolute();
-    write!(out, "x,y")?;
-    for Column { channel, errors } in columns {
+    write!(out, "{}", rows.place())?;
+    for Column { channel, errors, .. } in columns.iter().filter(|c| rows.shows(c)) {
         write!(out, ",{}", cell(&format!("{} [{}]", channel.name, unit(&channel.name, absolute))))?;
         if errors.is_some() {
             write!(out, ",{}", cell(&format!("{} se", channel.name)))?;
@@ -92,27 +105,15 @@ fn cell(text: &str) -> String {
 }
 
 /// The unit of a channel.
-fn unit(name: &str, absolute: bool) -> &'static str {
+pub(crate) fn unit(name: &str, absolute: bool) -> &'static str {
     let layer = name.split('.').next().unwrap_or(name);
     match layer {
         "depth" | "first-scatter" => "m",
-        "normal" | "albedo" | "transmittance" => "1",
+        "normal" | "albedo" | "transmittance" | "statistics" => "1",
         _ if !absolute => units::NORMALISED,
         _ if name.ends_with("nm") => units::ABSOLUTE,
         _ => units::INTEGRATED,
     }
-}
-
-fn row(window: Window, columns: &[Column<'_>], p: usize, out: &mut impl Write) -> io::Result<()> {
-    let (x, y) = (window.x0 as i64 + (p % window.width) as i64, window.y0 as i64 + (p / window.width) as i64);
-    write!(out, "{x},{y}")?;
-    for Column { channel, errors } in columns {
-        write!(out, ",{}", channel.data[p])?;
-        if let Some(se) = errors {
-            write!(out, ",{}", se[p])?;
-        }
-    }
-    writeln!(out)
 }
 
 /// The job that a table belongs to.

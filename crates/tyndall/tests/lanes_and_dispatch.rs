@@ -5,8 +5,9 @@ mod common;
 use common::{Bands, Run, develop, judge::Family, scene};
 use tyndall_film::ErrorMode;
 use tyndall_geometry::Dispatch;
+use tyndall_integrators::isa::Isa;
 
-const BANDS: Bands = Bands { count: 16 };
+const BANDS: Bands = Bands::new(16);
 
 /// Coloured fog around a dispersive glass ball over a coloured floor, a small lamp, a point light and a dim sky.
 fn everything() -> String {
@@ -20,13 +21,12 @@ fn everything() -> String {
         &of(7, 0.3, 1.0),
         &scene::asymmetry(&BANDS, &of(3, -0.5, 0.8)),
     );
-    let glass = format!("Material \"dielectric\"{}{}", scene::STEP, BANDS.step("eta", &of(9, 1.3, 1.7)));
-    let floor =
-        format!("Material \"diffuse\"{}{}\n", scene::STEP, BANDS.step("reflectance", &of(11, 0.05, 0.9)));
+    let glass = scene::glass(&BANDS, &of(9, 1.3, 1.7));
+    let floor = scene::diffuse(&BANDS, &of(11, 0.05, 0.9));
     let lamp = format!(
         "AttributeBegin\nAreaLightSource \"diffuse\" \"bool absolute\" true \"bool twosided\" true{}{}\nTranslate 0 1.5 1\n\
          Shape \"disk\" \"float radius\" 0.4\nAttributeEnd\n",
-        scene::STEP,
+        BANDS.interpolation(),
         BANDS.step("L", &of(13, 1.0, 6.0))
     );
     let point = "LightSource \"point\" \"bool absolute\" true \"spectrum I\" [300 2 900 1] \"point3 from\" [1.5 0.5 0.5]\n";
@@ -35,7 +35,7 @@ fn everything() -> String {
     format!(
         "{}WorldBegin\n{fog}{sky}{point}{floor}{}AttributeBegin\nMediumInterface \"fog\" \"\"\n{}\n{fog_box}AttributeEnd\n{lamp}\
          {glass}\nTranslate 0 0 -0.4\nScale 0.5 0.5 0.5\nMediumInterface \"\" \"fog\"\nShape \"sphere\"\n",
-        scene::camera([2.0, -4.0, 4.0], [0.0; 3], 1.5),
+        scene::camera(&BANDS, [2.0, -4.0, 4.0], [0.0; 3], 1.5),
         scene::plane(-1.0),
         scene::INTERFACE
     )
@@ -61,13 +61,30 @@ fn every_instruction_set_gives_the_same_bits() {
     let text = everything();
     let base = || Run { errors: ErrorMode::Conservative, ..Run::new(BANDS, 256) };
     for run in [base().hero(1), base().hero(4), base(), base().hero(16), base().opow(), base().fixed_set()] {
-        let (fast, portable) = (run.clone(), Run { dispatch: Dispatch::Portable, ..run });
-        let (a, b) = (fast.plan(&text), portable.plan(&text));
-        assert!(!a.pass.portable && b.pass.portable);
-        assert_eq!(develop(&a), develop(&b), "{:?}", portable.spectral);
+        let (plain, others) = (with(&run, Dispatch::Portable).plan(&text), sets());
+        let expected = develop(&plain);
+        for set in others {
+            let plan = with(&run, set).plan(&text);
+            assert_eq!(Some(plan.pass.isa), Isa::choose(set));
+            assert_eq!(develop(&plan), expected, "{set:?} {:?}", run.spectral);
+        }
     }
     let lit_by_area = text.lines().filter(|l| !l.contains("\"point\"")).collect::<Vec<_>>().join("\n");
     let analog = base().analog();
-    let portable = Run { dispatch: Dispatch::Portable, ..analog.clone() };
-    assert_eq!(analog.develop(&lit_by_area), portable.develop(&lit_by_area));
+    let expected = with(&analog, Dispatch::Portable).develop(&lit_by_area);
+    for set in sets() {
+        assert_eq!(with(&analog, set).develop(&lit_by_area), expected, "{set:?}");
+    }
+}
+
+fn with(run: &Run, dispatch: Dispatch) -> Run {
+    Run { dispatch, ..run.clone() }
+}
+
+/// The instruction sets that this processor has, beside the portable one; those that it has not are told.
+fn sets() -> Vec<Dispatch> {
+    let (have, lack): (Vec<_>, Vec<_>) =
+        [Dispatch::Detect, Dispatch::Avx2, Dispatch::Avx512].into_iter().partition(|d| d.is_available());
+    lack.iter().for_each(|d| println!("{d:?}: this processor does not have it, nothing was compared"));
+    have
 }

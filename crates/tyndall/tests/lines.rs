@@ -11,7 +11,7 @@ use tyndall::WavelengthPdf;
 use tyndall_spectral::{ColourSpace, SpaceName, cie};
 
 /// 400 to 912 nm, so that the lines of sodium lie inside.
-const BANDS: Bands = Bands { count: 32 };
+const BANDS: Bands = Bands::new(32);
 /// Sodium's D lines, its green pair and a potassium line: wavelength \[nm\], power.
 const LINES: [(f32, f64); 5] = [(589.0, 40.0), (589.59, 20.0), (568.82, 5.0), (498.28, 1.5), (766.49, 8.0)];
 const CONTINUUM: f64 = 0.25;
@@ -72,7 +72,7 @@ fn runs() -> [(&'static str, Run); 5] {
 #[test]
 fn lamp_seen_directly() {
     let sky = format!("LightSource \"infinite\" {}\n", lamp());
-    let text = format!("{}WorldBegin\n{sky}", scene::parallel_camera(-1.0));
+    let text = format!("{}WorldBegin\n{sky}", scene::parallel_camera(&BANDS, -1.0));
     let mut family = Family::default();
     runs().iter().for_each(|(name, run)| check(&mut family, name, run, &text, |_| 1.0));
     family.assert(0.05);
@@ -91,7 +91,7 @@ fn area_lamp_through_an_absorber() {
     );
     let text = format!(
         "{}WorldBegin\n{medium}{}{panel}",
-        scene::parallel_camera(-1.0),
+        scene::parallel_camera(&BANDS, -1.0),
         scene::slab("m", scene::INTERFACE)
     );
     let sigma = |lambda: f32| 2.0 + (0.1 - 2.0) * (f64::from(lambda) - 390.0) / 530.0;
@@ -109,7 +109,7 @@ fn point_lamp_on_a_white_floor() {
     let lamp = lamp().replace("spectrum L", "spectrum I");
     let lamp = format!("LightSource \"point\" {lamp} \"point3 from\" [0 0 1]\n");
     let white = "Material \"diffuse\" \"spectrum reflectance\" [300 1 950 1]\n";
-    let camera = scene::camera([0.0, 0.0, 0.5], [0.0; 3], 1e-4);
+    let camera = scene::camera(&BANDS, [0.0, 0.0, 0.5], [0.0; 3], 1e-4);
     let text = format!("{camera}WorldBegin\n{lamp}{white}{}", scene::plane(0.0));
     let mut family = Family::default();
     for (name, run) in runs().iter().filter(|(n, _)| !n.starts_with("analog")) {

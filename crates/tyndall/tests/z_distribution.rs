@@ -5,8 +5,8 @@ mod common;
 use common::{Bands, Run, judge::Family, scene, table::Table};
 use tyndall_testkit::{Welford, distribution::normal_cdf, ks_test, z_max};
 
-const BANDS: Bands = Bands { count: 8 };
-const FLUX: &str = include_str!("../data/tests/slab_flux.csv");
+const BANDS: Bands = Bands::new(8);
+const FLUX: &str = include_str!("../data/validate/slab_flux.csv");
 const SEEDS: std::ops::Range<u64> = 1000..1100;
 
 /// Differences and normal scores of one family at `seed`: plane albedo and transmittance of eight Rayleigh slabs.
@@ -18,8 +18,12 @@ fn family(seed: u64, opow: bool) -> Vec<[f64; 2]> {
     let run = Run::new(BANDS, 512).seed(seed);
     let run = if opow { run.opow() } else { run };
     let mut family = Family::default();
-    family.bands("R", &run.bands(&scene::reflectance(0.5, &medium, &slab)), &table.column("R"));
-    family.bands("T", &run.bands(&scene::transmittance(0.5, &medium, &slab)), &table.column("T_total"));
+    family.bands("R", &run.bands(&scene::reflectance(&BANDS, 0.5, &medium, &slab)), &table.column("R"));
+    family.bands(
+        "T",
+        &run.bands(&scene::transmittance(&BANDS, 0.5, &medium, &slab)),
+        &table.column("T_total"),
+    );
     family.differences()
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::Conflict;
-use super::value::{ImageFile, Interval, Pixel, WhitePoint, finite};
+use super::value::{ImageFile, Interval, Pixel, Region, WhitePoint, finite};
 
 /// Arguments of `tyndall develop`.
 #[derive(Args, Clone, Debug)]
@@ -18,13 +18,15 @@ Examples:
   tyndall develop fog.exr -o fog.png --exposure 1.5
   tyndall develop fog.exr -o red.png --band 650
   tyndall develop fog.exr -o luminance.png --false-colour 0.1:100
-  tyndall develop fog.exr -o points.csv --probe 10,20 --probe 30,40"
+  tyndall develop fog.exr -o points.csv --probe 10,20 --probe 30,40
+  tyndall develop fog.exr -o regions.csv --region 0,16,0,16 --region 16,32,0,16
+  tyndall develop fog.film -o fog.nc"
 )]
 pub struct DevelopArgs {
     /// The film or EXR
     #[arg(value_name = "FILM|EXR")]
     pub input: PathBuf,
-    /// Where the result goes; may be repeated (.png, .exr, .csv)
+    /// Where the result goes; may be repeated (.png, .exr, .csv, .nc)
     #[arg(long, short, value_name = "FILE", required = true, value_parser = ImageFile::parse)]
     pub output: Vec<ImageFile>,
     /// Replace existing files
@@ -36,6 +38,9 @@ pub struct DevelopArgs {
     /// Write this pixel to the table (.csv); may be repeated [default: all pixels]
     #[arg(long, value_name = "X,Y", value_parser = Pixel::parse, help_heading = "Table")]
     pub probe: Vec<Pixel>,
+    /// Write means over pixels from X0,Y0 up to but not including X1,Y1 to the table; may be repeated
+    #[arg(long, value_name = "X0,X1,Y0,Y1", value_parser = Region::parse, help_heading = "Table")]
+    pub region: Vec<Region>,
 }
 
 /// What the picture shows.
@@ -78,9 +83,9 @@ impl DevelopArgs {
     /// Refuses what cannot be combined.
     pub(super) fn check(&self) -> Result<(), Conflict> {
         let tables = self.output.iter().any(|file| file.kind.is_table());
-        if !self.probe.is_empty() && !tables {
+        if !(self.probe.is_empty() && self.region.is_empty()) && !tables {
             return Err(Conflict::new(
-                "--probe chooses rows of a table, and no table is written",
+                "--probe and --region choose rows of a table, and no table is written",
                 "add -o NAME.csv",
             ));
         }

@@ -23,7 +23,7 @@ pub struct MergeArgs {
     /// The films, one of each shard
     #[arg(value_name = "FILM", required = true)]
     pub films: Vec<PathBuf>,
-    /// Where the result goes; may be repeated (.exr, .png, .csv)
+    /// Where the result goes; may be repeated (.exr, .png, .csv, .nc)
     #[arg(long, short, value_name = "FILE", required = true, value_parser = ImageFile::parse)]
     pub output: Vec<ImageFile>,
     /// Replace results of another job

@@ -7,8 +7,10 @@ mod develop;
 mod diff;
 mod info;
 mod merge;
+mod plot;
 mod render;
 mod scene;
+mod validate;
 pub mod value;
 
 use clap::error::ErrorKind;
@@ -19,11 +21,13 @@ pub use develop::{DevelopArgs, DevelopSpace};
 pub use diff::DiffArgs;
 pub use info::InfoArgs;
 pub use merge::MergeArgs;
+pub use plot::PlotArgs;
 pub use render::{
-    BUILT_IN_SCENE, CheckpointFile, ErrorMode, Integrator, LightArgs, Names, OutputArgs, RenderArgs,
-    ReplayArgs, RunArgs, SpectralStrategy, StopArgs, WavelengthPdf, WavelengthRule,
+    BUILT_IN_SCENE, CheckpointFile, ErrorMode, InstructionSet, Integrator, LightArgs, Names, OutputArgs,
+    RenderArgs, ReplayArgs, RunArgs, SpectralStrategy, StopArgs, WavelengthPdf, WavelengthRule,
 };
 pub use scene::SceneArgs;
+pub use validate::ValidateArgs;
 
 const ABOUT: &str = "The true colour of light in fog, smoke, cloud and water";
 const LONG_ABOUT: &str = "\
@@ -62,6 +66,10 @@ pub enum Command {
     Diff(DiffArgs),
     /// Tell what is in a scene, and what of it is used
     Info(InfoArgs),
+    /// Draw curves of a medium, a spectrum or a pixel as SVG
+    Plot(PlotArgs),
+    /// Render scenes with known answers, and compare
+    Validate(ValidateArgs),
     /// Print a script that completes commands in your shell
     Completions(CompletionsArgs),
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use tyndall::files::image::{ExrOptions, Pixels, write_exr, write_png};
 use tyndall::image::chromaticities;
 use tyndall::spectral::{Outside, SpaceName, cie, colour, illuminant, illuminant::daylight_chromaticity};
-use tyndall::{Error, Image, Look, Picture, picture, table};
+use tyndall::table::{Region, Rows};
+use tyndall::{Error, Image, Look, Picture, cube, picture, table};
 
 use super::render::write_image;
 use crate::args::value::{FileKind, WhitePoint};
@@ -19,16 +20,17 @@ pub fn run(args: &DevelopArgs) -> Result<(), Failure> {
         if file.kind == FileKind::Film {
             return Err(Failure::input(
                 format!("{}: a film is what images are developed from", file.path.display()),
-                Some("write .exr, .png or .csv"),
+                Some("write .exr, .png, .csv or .nc"),
             ));
         }
     }
     let image = Image::read(&args.input)?;
     let look = look(args)?;
-    let rows: Vec<(u32, u32)> = args.probe.iter().map(|p| (p.x, p.y)).collect();
+    let rows = rows(args);
     for file in &args.output {
         match file.kind {
             FileKind::Csv => table::write(&file.path, &image, &rows)?,
+            FileKind::Netcdf => cube::write(&file.path, &image)?,
             FileKind::Exr if is_plain(args) => write_image(&image, &file.path, FileKind::Exr)?,
             FileKind::Exr => {
                 developed_exr(&file.path, &picture(&image, &exact(&look), space(args))?, space(args))?
@@ -37,6 +39,20 @@ pub fn run(args: &DevelopArgs) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Probes become regions of one pixel where there are regions too.
+fn rows(args: &DevelopArgs) -> Rows {
+    let probes = || args.probe.iter();
+    match (args.probe.is_empty(), args.region.is_empty()) {
+        (true, true) => Rows::All,
+        (_, true) => Rows::Pixels(probes().map(|p| (p.x, p.y)).collect()),
+        _ => {
+            let regions =
+                args.region.iter().map(|r| Region { x0: r.x[0], x1: r.x[1], y0: r.y[0], y1: r.y[1] });
+            Rows::Regions(probes().map(|p| Region::pixel(p.x, p.y)).chain(regions).collect())
+        }
+    }
 }
 
 fn refuse_to_replace(path: &Path, args: &DevelopArgs) -> Result<(), Failure> {

@@ -62,10 +62,18 @@ fn write_table(d: &Diff, out: &mut String) -> std::fmt::Result {
     for c in d.channels.iter().filter(|c| c.non_finite > 0) {
         writeln!(out, "{}: {} pixels are not finite and were left out", c.name, c.non_finite)?;
     }
+    write_marks("one sample dominates the error of", d.dominated, out)?;
+    write_marks("errors are pooled over tiles in", d.pooled, out)?;
     if !d.left_out.is_empty() {
         writeln!(out, "in one image only, not compared: {}", d.left_out.join(" "))?;
     }
     writeln!(out, "\n{}", verdict(d))
+}
+
+/// `one sample dominates the error of 12 pixels of A, 3 of B`.
+fn write_marks(what: &str, [a, b]: [Option<u64>; 2], out: &mut String) -> std::fmt::Result {
+    let (a, b) = (a.unwrap_or(0), b.unwrap_or(0));
+    if a + b == 0 { Ok(()) } else { writeln!(out, "{what} {a} pixels of A, {b} of B") }
 }
 
 fn write_tests(c: &ChannelDiff, width: usize, out: &mut String) -> std::fmt::Result {

@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use tyndall::engine::shard::{self, Merged};
+use tyndall::film::ErrorSummary;
 use tyndall::image::error_path;
 use tyndall::record::{Circumstances, Seconds};
 use tyndall::{Error, Image, Provenance, Record, existing, memory};
 
+use super::doubts;
 use super::render::{command_line, write_image};
 use crate::args::MergeArgs;
 use crate::args::value::FileKind;
@@ -30,7 +32,10 @@ pub fn run(args: &MergeArgs) -> Result<(), Failure> {
     for file in &args.output {
         write_image(&image, &file.path, file.kind)?;
     }
-    Ok(describe(&merged, &provenance).write(&record)?)
+    let summary = merged.film.summary();
+    describe(&merged, &summary, &provenance).write(&record)?;
+    doubts::tell(&summary);
+    Ok(())
 }
 
 fn results(args: &MergeArgs, record: &Path) -> Vec<PathBuf> {
@@ -39,7 +44,7 @@ fn results(args: &MergeArgs, record: &Path) -> Vec<PathBuf> {
     images.chain(errors).chain([record.to_path_buf()]).collect()
 }
 
-fn describe(merged: &Merged, provenance: &Provenance) -> Record {
+fn describe(merged: &Merged, summary: &ErrorSummary, provenance: &Provenance) -> Record {
     let circumstances = Circumstances {
         command: command_line(),
         scene: None,
@@ -47,5 +52,5 @@ fn describe(merged: &Merged, provenance: &Provenance) -> Record {
         threads: 0,
         samples: merged.film.samples(),
     };
-    Record::new(&merged.film, &merged.film.summary(), provenance, circumstances)
+    Record::new(&merged.film, summary, provenance, circumstances)
 }

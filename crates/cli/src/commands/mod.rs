@@ -3,11 +3,14 @@
 mod completions;
 mod develop;
 mod diff;
+mod doubts;
 mod info;
 mod merge;
+mod plot;
 mod print;
 mod render;
 mod scene;
+mod validate;
 
 use crate::args::{Command, LogArgs};
 use crate::exit::Failure;
@@ -25,5 +28,7 @@ pub fn run(command: Command, log: &LogArgs, console: &Console) -> Result<(), Fai
         Command::Develop(args) => develop::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::Info(args) => info::run(&args, log, console),
+        Command::Plot(args) => plot::run(&args),
+        Command::Validate(args) => validate::run(&args, log, console),
     }
 }

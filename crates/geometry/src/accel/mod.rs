@@ -79,7 +79,7 @@ impl InstanceDesc {
     }
 }
 
-/// Which instructions the traversal uses. All give the same bits.
+/// Which instructions are used. All give the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Dispatch {
@@ -88,6 +88,32 @@ pub enum Dispatch {
     Detect,
     /// Plain arrays, whatever the processor.
     Portable,
+    /// AVX2 with FMA and BMI.
+    Avx2,
+    /// AVX-512 (F, VL, DQ, BW, CD) for the paths, AVX2 for the traversal.
+    Avx512,
+}
+
+impl Dispatch {
+    /// Whether this processor has the instructions.
+    pub fn is_available(self) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        let has = match self {
+            Self::Detect | Self::Portable => true,
+            Self::Avx2 => lanes_avx2::Avx2::detect().is_some(),
+            Self::Avx512 => {
+                lanes_avx2::Avx2::detect().is_some()
+                    && is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("avx512cd")
+            }
+        };
+        #[cfg(not(target_arch = "x86_64"))]
+        let has = matches!(self, Self::Detect | Self::Portable);
+        has
+    }
 }
 
 /// How to build.
@@ -120,7 +146,9 @@ enum Isa {
 impl Isa {
     fn choose(dispatch: Dispatch) -> Self {
         #[cfg(target_arch = "x86_64")]
-        if let (Dispatch::Detect, Some(l)) = (dispatch, lanes_avx2::Avx2::detect()) {
+        if dispatch != Dispatch::Portable
+            && let Some(l) = lanes_avx2::Avx2::detect()
+        {
             return Self::Avx2(l);
         }
         let _ = dispatch;

@@ -58,8 +58,10 @@ impl Media {
         };
         for declared in &collected.media {
             let name = declared.name.as_str().to_owned();
+            let known = |n: &str| media.ids.get(n).map(|id| &media.table[id.index()]);
+            let medium = medium::medium(ctx, declared, units, &known)?;
             media.ids.insert(name.clone(), MediumId(media.table.len() as u32));
-            media.table.push(medium::medium(ctx, declared, units)?);
+            media.table.push(medium);
             media.names.push(name);
         }
         let mut sorted: Vec<_> = fillings.iter().collect();

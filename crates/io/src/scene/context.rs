@@ -1,5 +1,6 @@
 //! What all readers of directives share.
 
+use super::files::FoundFile;
 use std::{cell::RefCell, path::PathBuf};
 use tyndall_pbrt::{Diagnostics, Error, ErrorKind, ParamSet, Resolver, Text};
 use tyndall_spectral::{Curve, LambdaRange, SpectralError};
@@ -16,7 +17,7 @@ pub struct Context<'a> {
     /// Finds files.
     pub resolver: &'a Resolver,
     /// Files that were found, for the scene's hash.
-    pub files: &'a RefCell<Vec<PathBuf>>,
+    pub files: &'a RefCell<Vec<FoundFile>>,
 }
 
 /// Turns any error of a model's constructor into one at a directive.
@@ -39,7 +40,7 @@ impl Context<'_> {
                 if let Some(note) = found.note {
                     self.warnings.note(place, note);
                 }
-                self.files.borrow_mut().push(found.path.clone());
+                self.files.borrow_mut().push(FoundFile::new(found.path.clone()));
                 Ok(found.path)
             }
             Err(missing) => {

@@ -48,6 +48,16 @@ pub fn of_light(
 /// `Le` and `Lescale` of a medium; `None` where it does not emit.
 pub fn of_medium(ctx: &Context<'_>, params: &ParamSet, units: &mut Units) -> Result<Option<Emission>, Error> {
     let scale = f64::from(params.float("Lescale", 1.0)?);
+    of_medium_scaled(ctx, params, scale, units)
+}
+
+/// `Le` of a medium times `scale`.
+pub fn of_medium_scaled(
+    ctx: &Context<'_>,
+    params: &ParamSet,
+    scale: f64,
+    units: &mut Units,
+) -> Result<Option<Emission>, Error> {
     let lines = lines(params)?;
     let Some(light) = spectrum::light(ctx, params, "Le", Purpose::Illuminant)? else {
         params.bool("absolute", false)?;

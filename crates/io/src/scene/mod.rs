@@ -7,6 +7,7 @@ mod color_space;
 mod context;
 mod degenerate;
 mod emission;
+mod files;
 mod film;
 mod image;
 mod leftovers;
@@ -15,6 +16,7 @@ mod material;
 mod medium;
 mod overrides;
 mod phase;
+mod phase_table;
 mod render;
 mod sensor;
 mod shape;
@@ -26,16 +28,11 @@ pub use emission::Units;
 pub use film::{FilmDescription, crop_bounds};
 pub use render::{INTEGRATORS, IntegratorDescription, SamplerDescription, integrator_named, unlimited};
 
-use std::{
-    cell::RefCell,
-    collections::HashSet,
-    path::{Path, PathBuf},
-    sync::Arc,
-    time::Instant,
-};
+use files::FoundFile;
+use std::{cell::RefCell, collections::HashSet, path::Path, sync::Arc, time::Instant};
 use tyndall_film::PixelFilter;
 use tyndall_geometry::{BuildStats, Dispatch};
-use tyndall_pbrt::{Diagnostics, Error, ErrorKind, Inventory, Parser, SourceMap};
+use tyndall_pbrt::{Diagnostics, Error, Inventory, Parser, SourceMap};
 use tyndall_spectral::LambdaRange;
 use tyndall_transport::Scene;
 
@@ -138,7 +135,7 @@ fn load(mut parser: Parser, options: &LoadOptions) -> Result<LoadedScene, Error>
 }
 
 /// Hash of the scene's text and of the meshes, images and spectra it names, in the order they were read.
-fn hash(parser: &Parser, files: &[PathBuf]) -> Result<String, Error> {
+fn hash(parser: &Parser, files: &[FoundFile]) -> Result<String, Error> {
     let mut hasher = blake3::Hasher::new();
     let mut add = |bytes: &[u8]| {
         hasher.update(&(bytes.len() as u64).to_le_bytes());
@@ -148,9 +145,8 @@ fn hash(parser: &Parser, files: &[PathBuf]) -> Result<String, Error> {
         add(file.bytes());
     }
     let mut seen = HashSet::new();
-    for path in files.iter().filter(|path| seen.insert(*path)) {
-        let unreadable = |e| Error::in_file(ErrorKind::Io(e), path.display().to_string());
-        add(&std::fs::read(path).map_err(unreadable)?);
+    for file in files.iter().filter(|file| seen.insert(file.path())) {
+        add(&file.read()?);
     }
     Ok(hasher.finalize().to_hex().to_string())
 }

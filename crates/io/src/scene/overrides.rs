@@ -18,7 +18,7 @@ const OPTIONS: [(&str, EntityKind, &str); 4] = [
 ];
 
 /// Parameters that are integers in pbrt-v4 and here: a whole number alone does not tell.
-const INTEGERS: [&str; 9] = [
+const INTEGERS: [&str; 12] = [
     "maxdepth",
     "pixelsamples",
     "xresolution",
@@ -28,6 +28,9 @@ const INTEGERS: [&str; 9] = [
     "roulettedepth",
     "xsamples",
     "ysamples",
+    "nx",
+    "ny",
+    "nz",
 ];
 
 /// An override in force.

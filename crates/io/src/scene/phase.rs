@@ -2,7 +2,8 @@
 
 use super::{
     context::{Context, at, refuse},
-    spectrum::{Purpose, float_or_curve},
+    phase_table,
+    spectrum::{self, Purpose, float_or_curve},
 };
 use tyndall_pbrt::{Error, ParamSet, ParamType, SpectrumValue};
 use tyndall_scatter::phase::{
@@ -10,15 +11,16 @@ use tyndall_scatter::phase::{
 };
 use tyndall_spectral::{Curve, range::Outside};
 
-const CLASSES: &str =
-    "isotropic, henyey-greenstein, rayleigh, cornette-shanks, draine, schlick, two-lobe, fournier-forand";
+const CLASSES: &str = "isotropic, henyey-greenstein, rayleigh, cornette-shanks, draine, schlick, two-lobe, \
+                       fournier-forand, tabulated";
 
 /// The phase function of a medium.
 pub fn phase(ctx: &Context<'_>, params: &ParamSet) -> Result<PhaseFunction, Error> {
     let class = params.string("phase", "")?;
     let wrap = |e: tyndall_scatter::ScatterError| at(params, e);
-    let number =
-        |name: &str, default: f32| Ok::<_, Error>(signed(params, name)?.unwrap_or(Curve::Constant(default)));
+    let number = |name: &str, default: f32| {
+        Ok::<_, Error>(signed(ctx, params, name)?.unwrap_or(Curve::Constant(default)))
+    };
     Ok(match class.as_str() {
         "isotropic" => PhaseFunction::Isotropic,
         "" | "henyey-greenstein" => henyey_greenstein(number("g", 0.0)?).map_err(wrap)?,
@@ -40,6 +42,7 @@ pub fn phase(ctx: &Context<'_>, params: &ParamSet) -> Result<PhaseFunction, Erro
             let (n, mu) = (params.float("n", 1.1)?, params.float("mu", 3.5835)?);
             PhaseFunction::FournierForand(FournierForand::new(n, mu).map_err(wrap)?)
         }
+        "tabulated" => PhaseFunction::Tabulated(phase_table::table(ctx, params)?),
         other => {
             let got = format!("\"{other}\"");
             return Err(refuse(params, "phase", "must be a known phase function", got)
@@ -56,17 +59,17 @@ fn henyey_greenstein(g: Curve) -> Result<PhaseFunction, tyndall_scatter::Scatter
     HenyeyGreenstein::new(g).map(PhaseFunction::HenyeyGreenstein)
 }
 
-/// A float, or a spectrum of values of either sign held at its ends; `None` if absent.
-fn signed(params: &ParamSet, name: &str) -> Result<Option<Curve>, Error> {
+/// A float, or a table of values of either sign, an error outside it unless `extrapolate` says more; `None` if absent.
+fn signed(ctx: &Context<'_>, params: &ParamSet, name: &str) -> Result<Option<Curve>, Error> {
     if params.type_of(name) == Some(ParamType::Float) {
         return Ok(params.float_opt(name)?.map(Curve::Constant));
     }
     match params.spectrum(name)? {
         None => Ok(None),
         Some(SpectrumValue::Samples { lambda, values }) => {
-            let narrow = |v: Vec<f64>| v.into_iter().map(|x| x as f32).collect::<Vec<f32>>();
-            let curve = Curve::linear(&narrow(lambda), &narrow(values), Outside::Hold);
-            curve.map(Some).map_err(|e| params.error(format!("{name}: {e}")))
+            let curve = spectrum::tabulated(params, name, &lambda, &values, Outside::Error)?;
+            ctx.check_range(params, name, &curve)?;
+            Ok(Some(curve))
         }
         Some(_) => Err(params.error_at(
             name,

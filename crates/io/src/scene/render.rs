@@ -93,13 +93,14 @@ pub fn integrator_named(name: &str) -> Option<(Method, bool)> {
 /// Names for messages.
 pub const INTEGRATORS: &str = "volpath, analog, path (leaves media out), simplepath and simplevolpath";
 
-const KNOWN: [&str; 16] = [
+const KNOWN: &[&str] = &[
     "maxdepth",
     "regularize",
     "lightsampler",
     "equiangular",
     "lightsampling",
     "exacttransmittance",
+    "residualratio",
     "survival",
     "coneclipping",
     "roulettedepth",
@@ -135,7 +136,7 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
     }
     let settings = settings(p)?;
     let selection = selection(p)?;
-    ctx.finish(p, &KNOWN);
+    ctx.finish(p, KNOWN);
     Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, selection })
 }
 
@@ -181,6 +182,7 @@ fn settings(p: &ParamSet) -> Result<Settings, Error> {
         regularize: p.bool("regularize", false)?,
         light_sampling: p.bool("lightsampling", default.light_sampling)?,
         exact_transmittance: p.bool("exacttransmittance", default.exact_transmittance)?,
+        residual: p.bool("residualratio", default.residual)?,
         survival: p.bool("survival", default.survival)?,
         equiangular,
         cone_clipping: p.bool("coneclipping", default.cone_clipping)?,

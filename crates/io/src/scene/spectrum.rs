@@ -78,7 +78,7 @@ pub fn one(
             return colour(params, name, *rgb, color_space.as_deref(), purpose);
         }
         SpectrumValue::Blackbody(kelvin) => Curve::blackbody(*kelvin as f32).map_err(|e| at(params, e))?,
-        SpectrumValue::Samples { lambda, values } => tabulated(params, name, lambda, values)?,
+        SpectrumValue::Samples { lambda, values } => tabulated(params, name, lambda, values, Outside::Zero)?,
         SpectrumValue::Named(text) => match named::named_spectrum(text.as_str()) {
             Some(curve) => curve,
             None => file(ctx, params, name, text)?,
@@ -115,7 +115,8 @@ fn colour(
     Ok(Light { curve, photometric: cie::y_integral(&ColourSpace::get(space).illuminant) })
 }
 
-fn outside(params: &ParamSet, default: Outside) -> Result<Outside, Error> {
+/// The rule outside a table.
+pub fn outside(params: &ParamSet, default: Outside) -> Result<Outside, Error> {
     match params.string("extrapolate", "")?.as_str() {
         "" => Ok(default),
         "hold" => Ok(Outside::Hold),
@@ -124,8 +125,15 @@ fn outside(params: &ParamSet, default: Outside) -> Result<Outside, Error> {
     }
 }
 
-fn tabulated(params: &ParamSet, name: &str, lambda: &[f64], values: &[f64]) -> Result<Curve, Error> {
-    let outside = outside(params, Outside::Zero)?;
+/// A table by the directive's `interpolation` and `extrapolate`; `default` rules outside it where that is absent.
+pub fn tabulated(
+    params: &ParamSet,
+    name: &str,
+    lambda: &[f64],
+    values: &[f64],
+    default: Outside,
+) -> Result<Curve, Error> {
+    let outside = outside(params, default)?;
     let narrow = |v: &[f64]| v.iter().map(|&x| x as f32).collect::<Vec<f32>>();
     let (lambda, values) = (narrow(lambda), narrow(values));
     let made = match params.string("interpolation", "linear")?.as_str() {
@@ -164,7 +172,7 @@ fn file(ctx: &Context<'_>, params: &ParamSet, name: &str, text: &tyndall_pbrt::T
     }
     let (lambda, values): (Vec<f64>, Vec<f64>) =
         numbers.as_chunks::<2>().0.iter().map(|p| (p[0], p[1])).unzip();
-    tabulated(params, name, &lambda, &values)
+    tabulated(params, name, &lambda, &values, Outside::Zero)
 }
 
 fn check_values(

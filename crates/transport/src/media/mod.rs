@@ -1,9 +1,17 @@
 //! Participating media: coefficients \[1/m\] per wavelength, emission and phase function.
 
+pub mod density;
+pub mod emission;
+mod heterogeneous;
 mod homogeneous;
+pub mod majorant;
+pub mod model;
 
+pub use density::{Bricks, Cloud, Dense, Edge};
+pub use heterogeneous::{Heterogeneous, Model, Visitor};
 pub use homogeneous::Homogeneous;
 
+use std::sync::Arc;
 use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
 
@@ -33,21 +41,25 @@ impl<const N: usize> MediumProperties<'_, N> {
 pub enum Medium {
     /// The same everywhere.
     Homogeneous(Homogeneous),
+    /// Varying in space.
+    Heterogeneous(Arc<Heterogeneous>),
 }
 
 impl Medium {
-    /// The source radiance, if the medium emits.
+    /// The source radiance, if the medium emits: where it varies, of the kind found in it.
     pub fn emission(&self) -> Option<&tyndall_spectral::Emission> {
         match self {
             Self::Homogeneous(m) => m.le.as_ref(),
+            Self::Heterogeneous(m) => m.emission(),
         }
     }
 
-    /// The properties, when they do not depend on the point.
+    /// The properties of a homogeneous medium; `None` where they depend on the point.
     #[inline(always)]
-    pub fn homogeneous<const N: usize>(&self, w: &Wavelengths<N>) -> MediumProperties<'_, N> {
+    pub fn homogeneous<const N: usize>(&self, w: &Wavelengths<N>) -> Option<MediumProperties<'_, N>> {
         match self {
-            Self::Homogeneous(m) => m.at(w),
+            Self::Homogeneous(m) => Some(m.at(w)),
+            Self::Heterogeneous(_) => None,
         }
     }
 }

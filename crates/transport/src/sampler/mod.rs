@@ -4,7 +4,7 @@
 //! Owen scrambling*), because they decide most of the variance; beyond them a counter-based hash serves, whose
 //! length has no bound. Every pair of dimensions has its own scramble, so the order of draws within a pair is fixed.
 
-use tyndall_base::{Vec2, hash, sobol, vec::vec2};
+use tyndall_base::{Vec2, hash, rng::Pcg32, sobol, vec::vec2};
 
 /// Which points the first dimensions come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,6 +34,8 @@ pub struct PathSampler {
     /// The same, prepared for the net.
     point: sobol::SobolIndex,
     dimension: u32,
+    /// Streams handed out so far.
+    streams: u32,
 }
 
 impl PathSampler {
@@ -45,7 +47,7 @@ impl PathSampler {
         let replicates = replicates.max(1);
         let key = hash::hash4(seed as u32, (seed >> 32) as u32 ^ (sample % replicates), px, py);
         let index = sample / replicates;
-        Self { kind, key, index, point: sobol::SobolIndex::new(index), dimension: 0 }
+        Self { kind, key, index, point: sobol::SobolIndex::new(index), dimension: 0, streams: 0 }
     }
 
     /// Moves to `dimension`.
@@ -58,6 +60,14 @@ impl PathSampler {
     #[inline(always)]
     pub fn seek_vertex(&mut self, vertex: u32) {
         self.dimension = CAMERA_DIMENSIONS.saturating_add(vertex.saturating_mul(DIMENSIONS_PER_VERTEX));
+    }
+
+    /// A generator of its own for an estimator that needs a number of numbers nobody knows, such as tracking through a
+    /// medium: a function of the path and of how many were asked for before.
+    #[inline]
+    pub fn stream(&mut self) -> Pcg32 {
+        self.streams += 1;
+        Pcg32::from_key(hash::hash3_u64(self.key, self.index, self.streams))
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! The share of the second of two textures: what `mix`, `checkerboard`, `dots`, `directionmix` and `bilerp` differ in.
 
-use super::{FloatTexture, Mapping, TextureContext, noise::noise};
+use super::{FloatTexture, Mapping, TextureContext};
+use crate::noise::noise;
 use tyndall_base::{Vec2, Vec3, vec::vec3};
 use tyndall_geometry::Transform;
 

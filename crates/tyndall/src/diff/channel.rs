@@ -1,7 +1,25 @@
 //! One channel of two images.
 
 use super::{ChannelDiff, DiffOptions, tests_of::test};
-use crate::Image;
+use crate::{Image, statistics};
+
+/// Degrees of freedom of an image's errors, pixel by pixel where the file tells.
+struct Freedom<'i> {
+    plane: Option<&'i [f32]>,
+    whole: f64,
+}
+
+impl<'i> Freedom<'i> {
+    /// Without a word on the freedom of its errors a file counts as having much.
+    fn of(image: &'i Image) -> Self {
+        let plane = image.errors.as_ref().and_then(|e| e.channel(statistics::FREEDOM));
+        Self { plane, whole: image.degrees_of_freedom().map_or(1e6, f64::from) }
+    }
+
+    fn at(&self, p: usize) -> f64 {
+        self.plane.map_or(self.whole, |plane| f64::from(plane[p])).max(1.0)
+    }
+}
 
 /// A channel's planes.
 pub(super) struct Pair<'i> {
@@ -9,7 +27,7 @@ pub(super) struct Pair<'i> {
     pub b: &'i [f32],
     pub error_a: Option<&'i [f32]>,
     pub error_b: Option<&'i [f32]>,
-    pub freedom: [f64; 2],
+    freedom: [Freedom<'i>; 2],
     pub scale: f64,
     pub width: usize,
 }
@@ -18,14 +36,12 @@ impl<'i> Pair<'i> {
     fn new(name: &str, a: &'i Image, b: &'i Image, scale: f64) -> Self {
         let values = |i: &'i Image| i.values.channel(name).unwrap_or_default();
         let errors = |i: &'i Image| i.errors.as_ref().and_then(|e| e.channel(name));
-        // without a word on the freedom of its errors a file counts as having much
-        let freedom = |i: &Image| i.degrees_of_freedom().map_or(1e6, f64::from);
         Self {
             a: values(a),
             b: values(b),
             error_a: errors(a),
             error_b: errors(b),
-            freedom: [freedom(a), freedom(b)],
+            freedom: [Freedom::of(a), Freedom::of(b)],
             scale,
             width: a.values.width(),
         }
@@ -41,6 +57,11 @@ impl<'i> Pair<'i> {
     pub fn variances(&self, p: usize) -> [f64; 2] {
         let square = |e: Option<&[f32]>, scale: f64| e.map_or(0.0, |e| (f64::from(e[p]) * scale).powi(2));
         [square(self.error_a, self.scale), square(self.error_b, 1.0)]
+    }
+
+    /// Degrees of freedom of the two errors.
+    pub fn freedom(&self, p: usize) -> [f64; 2] {
+        [self.freedom[0].at(p), self.freedom[1].at(p)]
     }
 
     pub fn has_errors(&self) -> bool {

@@ -13,7 +13,7 @@
 mod channel;
 mod tests_of;
 
-use crate::{Error, Image, image::ordered};
+use crate::{Error, Image, image::ordered, statistics};
 use channel::compare;
 use serde::Serialize;
 use tests_of::holm;
@@ -56,6 +56,10 @@ pub struct Diff {
     pub size: [usize; 2],
     /// Whose errors are known: of the first, of the second image.
     pub errors: [bool; 2],
+    /// Pixels of the first and the second image in which one sample dominates the error; `null` where not known.
+    pub dominated: [Option<u64>; 2],
+    /// Pixels whose errors were pooled over their tile.
+    pub pooled: [Option<u64>; 2],
     /// Level of the verdict.
     pub alpha: f64,
     /// Side of the blocks \[pixels\].
@@ -144,7 +148,18 @@ pub fn diff(a: &Image, b: &Image, options: &DiffOptions) -> Result<Diff, Error> 
     holm(&mut channels, options.alpha);
     let errors = [a.errors.is_some(), b.errors.is_some()];
     let verdict = verdict(&channels, &common, a, b, options.scale);
-    Ok(Diff { size, errors, alpha: options.alpha, block: options.block, channels, left_out, verdict })
+    let marked = |name: &str| [a, b].map(|i| statistics::marked(i.errors.as_ref(), name));
+    Ok(Diff {
+        size,
+        errors,
+        dominated: marked(statistics::DOMINATED),
+        pooled: marked(statistics::POOLED),
+        alpha: options.alpha,
+        block: options.block,
+        channels,
+        left_out,
+        verdict,
+    })
 }
 
 fn verdict(channels: &[ChannelDiff], common: &[&String], a: &Image, b: &Image, scale: f64) -> Verdict {

@@ -23,7 +23,8 @@ impl Sums {
         self.pixels += 1;
         self.difference += a - b;
         self.variance += v[0] + v[1];
-        self.freedom += v[0] * v[0] / pair.freedom[0].max(1.0) + v[1] * v[1] / pair.freedom[1].max(1.0);
+        let freedom = pair.freedom(p);
+        self.freedom += v[0] * v[0] / freedom[0] + v[1] * v[1] / freedom[1];
     }
 
     fn join(&mut self, other: &Self) {

@@ -1,55 +1,16 @@
 //! Scenes as text, rendered without the engine into bands, and judged by their own standard errors.
-#![allow(dead_code)]
+#![allow(dead_code, unused_imports)] // every test program uses a part
 
 pub mod judge;
-pub mod scene;
-pub mod table;
+
+pub use tyndall::validate::{Bands, Dialect, scene, table};
 
 use std::path::Path;
+use tyndall::validate::measure::REPLICATES;
 use tyndall::{Options, Plan, Source, Spectral, WavelengthPdf, plan};
 use tyndall_film::{Developed, ErrorMode, Film, Guide, Pass, Patch, WorkUnit};
 use tyndall_geometry::Dispatch;
-use tyndall_spectral::{LambdaRange, strategy::Rule};
-
-/// Replicates of a pixel's samples, from whose spread the errors come.
-pub const REPLICATES: u32 = 32;
-
-/// Bands of the same width from 400 nm on.
-#[derive(Clone, Copy, Debug)]
-pub struct Bands {
-    pub count: usize,
-}
-
-impl Bands {
-    /// \[nm\]; a power of two, so that the density of wavelengths is exact for powers of two of bands.
-    pub const WIDTH: f32 = 16.0;
-
-    pub fn edges(&self) -> Vec<f32> {
-        (0..=self.count).map(|i| 400.0 + Self::WIDTH * i as f32).collect()
-    }
-
-    fn range(&self) -> LambdaRange {
-        let e = self.edges();
-        LambdaRange { min: e[0], max: e[self.count] }
-    }
-
-    /// A parameter that is constant in each band; the directive needs [`scene::STEP`].
-    pub fn step(&self, name: &str, values: &[f64]) -> String {
-        assert_eq!(values.len(), self.count, "{name}: one value a band");
-        let pairs = self.edges().into_iter().zip(values.iter().chain(values.last()));
-        let text: Vec<String> = pairs.map(|(e, v)| format!("{e} {v}")).collect();
-        format!(" \"spectrum {name}\" [{}]", text.join(" "))
-    }
-
-    /// The same as linear pieces whose jumps are one unit in the last place wide: for parameters without steps.
-    pub fn cliff(&self, name: &str, values: &[f64]) -> String {
-        assert_eq!(values.len(), self.count, "{name}: one value a band");
-        let edges = self.edges();
-        let piece = |(i, v): (usize, &f64)| format!("{} {v} {} {v}", edges[i], edges[i + 1].next_down());
-        let text: Vec<String> = values.iter().enumerate().map(piece).collect();
-        format!(" \"spectrum {name}\" [{}]", text.join(" "))
-    }
-}
+use tyndall_spectral::strategy::Rule;
 
 /// How a scene is rendered.
 #[derive(Clone, Debug)]

@@ -8,6 +8,9 @@ use crate::args::value::positive;
 /// Wavelengths on a path that the program is compiled for.
 const HERO_WAVELENGTHS: [u32; 4] = [1, 4, 8, 16];
 
+/// More wavelengths of a fixed set than this lie closer together than numbers of 32 bits tell apart.
+const MOST_WAVELENGTHS: i64 = 1 << 20;
+
 /// How light is followed.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Light")]
@@ -26,7 +29,7 @@ pub struct LightArgs {
     ///
     /// For hero: on one path, and one of 1, 4, 8, 16. For opow: size of a fixed set of equidistant wavelengths, any
     /// number, of which each path carries one; without it each path draws its own from the continuum.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_WAVELENGTHS))]
     pub wavelengths: Option<u32>,
     /// Where the wavelengths of a fixed set lie [default: midpoint]
     #[arg(long, value_enum, value_name = "RULE")]

@@ -13,7 +13,7 @@ use clap::Args;
 pub use light::{Integrator, LightArgs, SpectralStrategy, WavelengthPdf, WavelengthRule};
 pub use output::{Names, OutputArgs};
 pub use replay::ReplayArgs;
-pub use run::{CheckpointFile, RunArgs};
+pub use run::{CheckpointFile, InstructionSet, RunArgs};
 pub use stop::{ErrorMode, StopArgs};
 
 use super::{Conflict, SceneArgs};

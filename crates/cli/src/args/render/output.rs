@@ -13,7 +13,7 @@ use crate::args::value::{
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Output")]
 pub struct OutputArgs {
-    /// Where an image goes; may be repeated (.exr, .png, .csv, .film) [default: NAME.exr and NAME.png]
+    /// Where an image goes; may be repeated (.exr, .png, .csv, .nc, .film) [default: NAME.exr and NAME.png]
     #[arg(long = "output", short = 'o', value_name = "FILE", value_parser = ImageFile::parse)]
     pub files: Vec<ImageFile>,
     /// Replace results of another job

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use super::Conflict;
 use crate::args::value::{Duration, Shard};
@@ -16,11 +16,14 @@ pub struct RunArgs {
     /// Threads [default: what the machine, its cgroup included, allows]
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// Instructions to use; every set gives the same bits
+    #[arg(long, value_enum, value_name = "SET", default_value_t = InstructionSet::Auto)]
+    pub isa: InstructionSet,
     /// Where the state goes that --resume starts from, or `off` [default: NAME.ckpt]
     #[arg(long, value_name = "FILE|off", value_parser = CheckpointFile::parse)]
     pub checkpoint: Option<CheckpointFile>,
-    /// Time between checkpoints
-    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = Duration::parse)]
+    /// Time between checkpoints; 0s writes one after every piece of work, whatever that costs
+    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = Duration::parse_or_none)]
     pub checkpoint_every: Duration,
     /// Go on from the checkpoint of the same job, to the same bits as without an interruption
     #[arg(long)]
@@ -32,6 +35,20 @@ pub struct RunArgs {
     /// share it
     #[arg(long, value_name = "FILE")]
     pub guide: Option<PathBuf>,
+}
+
+/// Instructions to use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum InstructionSet {
+    /// The fastest that this processor has
+    #[default]
+    Auto,
+    /// None beyond those that every processor has
+    Portable,
+    /// AVX2 (x86-64)
+    Avx2,
+    /// AVX-512 (x86-64)
+    Avx512,
 }
 
 /// Where checkpoints go.

@@ -4,7 +4,7 @@ use std::time;
 
 use super::{Refusal, finite};
 
-/// A time span greater than zero.
+/// A time span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Duration(pub time::Duration);
 
@@ -13,6 +13,14 @@ const UNITS: [(&str, f64); 5] = [("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("h", 36
 const EXPECTED: &str = "expected a time with units (ms, s, m, h, d) such as 90s, 5m or 1h30m";
 
 impl Duration {
+    /// Reads a time as [`Duration::parse`] does, or none at all as `0s`.
+    ///
+    /// # Errors
+    /// Those of [`Duration::parse`], but for zero.
+    pub fn parse_or_none(text: &str) -> Result<Self, Refusal> {
+        if text.trim() == "0s" { Ok(Self(time::Duration::ZERO)) } else { Self::parse(text) }
+    }
+
     /// Reads a sum of numbers with units, largest unit first: `1h30m`, `2.5s`.
     ///
     /// # Errors
@@ -87,6 +95,8 @@ mod tests {
         ] {
             assert!(Duration::parse(text).expect_err(text).contains("90s, 5m or 1h30m"), "{text}");
         }
+        assert_eq!(Duration::parse_or_none("0s"), Ok(Duration(time::Duration::ZERO)));
+        assert!(Duration::parse_or_none("0").is_err());
         assert!(Duration::parse("90").expect_err("refused").contains("without a unit"));
     }
 }

@@ -14,13 +14,20 @@ pub enum FileKind {
     Png,
     /// Table of pixels, units in its header.
     Csv,
+    /// NetCDF: the spectral cube with its errors.
+    Netcdf,
     /// The film itself, with everything needed to go on or to merge.
     Film,
 }
 
 /// Endings and what they mean.
-const ENDINGS: [(&str, FileKind); 4] =
-    [("exr", FileKind::Exr), ("png", FileKind::Png), ("csv", FileKind::Csv), ("film", FileKind::Film)];
+const ENDINGS: [(&str, FileKind); 5] = [
+    ("exr", FileKind::Exr),
+    ("png", FileKind::Png),
+    ("csv", FileKind::Csv),
+    ("nc", FileKind::Netcdf),
+    ("film", FileKind::Film),
+];
 
 impl FileKind {
     /// Whether it holds rows of numbers.

@@ -9,12 +9,14 @@ mod write;
 use std::path::{Path, PathBuf};
 
 use miette::miette;
+use tyndall::engine::atomic::beside;
 use tyndall::engine::{Cancel, Checkpoints, End, Outcome};
 use tyndall::files::FileError;
+use tyndall::files::atomic::remove_stale_temporaries;
 use tyndall::image::error_path;
-use tyndall::{Plan, Provenance, RunOptions, existing, memory, plan};
+use tyndall::{Error, Plan, Provenance, RunOptions, existing, memory, plan};
 
-use super::scene;
+use super::{doubts, scene};
 use crate::args::value::{FileKind, ImageFile};
 use crate::args::{CheckpointFile, LogArgs, Names, RenderArgs};
 use crate::exit::Failure;
@@ -90,7 +92,7 @@ impl<'a> Job<'a> {
 
     /// A job that was resumed to its end leaves no checkpoint but its results.
     fn is_done_already(&self) -> bool {
-        let gone = self.checkpoint().is_none_or(|c| !c.exists() && !c.with_extension("ckpt.1").exists());
+        let gone = self.checkpoint().is_none_or(|c| !c.exists() && !beside(c, ".1").exists());
         let mine = |p: &&Path| existing::belongs(p, &self.provenance);
         self.args.run.resume && gone && self.names.images.iter().map(PathBuf::as_path).all(|p| mine(&p))
     }
@@ -119,6 +121,7 @@ impl<'a> Job<'a> {
             resume: self.args.run.resume,
         };
         self.mention_checkpoint();
+        self.clean_up()?;
         let writer = Writer::new(self, &run);
         let mut watcher = Watcher::new(self, &writer, log, console);
         let outcome = tyndall::render(&self.plan, &run, &mut watcher);
@@ -135,6 +138,12 @@ impl<'a> Job<'a> {
         }
     }
 
+    /// Whoever resumes says that the run before is over: what it was writing when it died is of no use.
+    fn clean_up(&self) -> Result<(), Failure> {
+        let stale = |path: PathBuf| Ok(remove_stale_temporaries(&path).map(|_| ()).map_err(Error::from)?);
+        if self.args.run.resume { self.results().into_iter().try_for_each(stale) } else { Ok(()) }
+    }
+
     fn mention_checkpoint(&self) {
         if let Some(path) = self.checkpoint().filter(|p| p.exists() && !self.args.run.resume) {
             tracing::info!("{}: a checkpoint is there; --resume would go on from it", path.display());
@@ -142,7 +151,9 @@ impl<'a> Job<'a> {
     }
 
     fn conclude(&self, outcome: &Outcome, writer: &Writer<'_>) -> Result<(), Failure> {
-        writer.write(outcome)?;
+        if let Some(summary) = writer.write(outcome)? {
+            doubts::tell(&summary);
+        }
         report_bad_samples(outcome);
         match outcome.end {
             End::Cancelled => match self.checkpoint() {

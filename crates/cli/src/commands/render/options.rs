@@ -4,13 +4,14 @@ use std::path::Path;
 
 use tyndall::engine::{EngineError, Quantity, Shard, Target, container};
 use tyndall::film::{ErrorMode, Guide, SampleCounts};
+use tyndall::geometry::Dispatch;
 use tyndall::integrators::layers::{Aov, Orders};
 use tyndall::spectral::{LambdaRange, strategy::Rule};
 use tyndall::{Options, Spectral, WavelengthPdf, memory};
 
 use super::super::scene;
 use crate::args::value::{self, Bands, Crop};
-use crate::args::{self, LightArgs, RenderArgs, SpectralStrategy, StopArgs, WavelengthRule};
+use crate::args::{self, InstructionSet, LightArgs, RenderArgs, SpectralStrategy, StopArgs, WavelengthRule};
 use crate::exit::Failure;
 
 /// Wavelengths on a path of `--spectral hero` unless told otherwise.
@@ -25,6 +26,7 @@ pub fn options(args: &RenderArgs) -> Result<Options, Failure> {
     light(&args.light, &mut o);
     output(args, &mut o);
     stop(&args.stop, &mut o);
+    o.dispatch = dispatch(args.run.isa);
     o.shard = args.run.shard.map(|s| Shard { index: s.index, count: s.count });
     if let Some(path) = &args.run.guide {
         o.guide = guide(path)?;
@@ -65,6 +67,15 @@ fn output(args: &RenderArgs, o: &mut Options) {
     o.band_edges = out.bands.as_ref().map(|b| b.edges().into_iter().map(|e| e as f32).collect());
     o.aovs = unique(out.aovs.iter().map(|a| aov(*a)));
     o.orders = out.split_orders.iter().flat_map(|orders| &orders.0).map(order).collect();
+}
+
+const fn dispatch(isa: InstructionSet) -> Dispatch {
+    match isa {
+        InstructionSet::Auto => Dispatch::Detect,
+        InstructionSet::Portable => Dispatch::Portable,
+        InstructionSet::Avx2 => Dispatch::Avx2,
+        InstructionSet::Avx512 => Dispatch::Avx512,
+    }
 }
 
 fn unique(aovs: impl Iterator<Item = Aov>) -> Vec<Aov> {

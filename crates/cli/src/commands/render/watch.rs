@@ -27,15 +27,10 @@ impl<'w> Watcher<'w> {
     /// Shows the start.
     pub fn new(job: &Job<'_>, writer: &'w Writer<'w>, log: &LogArgs, console: &Console) -> Self {
         let address = job.args.output.display_server.as_ref();
-        // with a target the end is not known, with a shard it is that of its part
-        let spp_end = match (&job.plan.job.target, job.plan.job.samples()) {
-            (None, range) => Some(range.end - range.start),
-            (Some(_), _) => None,
-        };
         Self {
             progress: Some(Progress::start(console, log)),
             status: Status::default(),
-            spp_end,
+            spp_end: job.plan.job.mean_spp().map(|spp| spp.round() as u32),
             display: address.and_then(|a| Display::open(a, &job.names.images[0], &job.plan.job.film)),
             every: job.args.output.write_every.map(|d| d.0),
             written: Instant::now(),

@@ -4,11 +4,12 @@ use std::path::Path;
 
 use tyndall::engine::{Outcome, shard};
 use tyndall::files::image::{ExrOptions, write_exr, write_png};
-use tyndall::film::Film;
+use tyndall::film::{ErrorSummary, Film};
 use tyndall::image::error_path;
 use tyndall::record::{Circumstances, Seconds};
 use tyndall::spectral::SpaceName;
-use tyndall::{Error, Image, Look, Record, RunOptions, picture, table};
+use tyndall::table::{self, Rows};
+use tyndall::{Error, Image, Look, Record, RunOptions, cube, picture};
 
 use super::Job;
 use crate::args::value::FileKind;
@@ -26,12 +27,12 @@ impl<'j> Writer<'j> {
         Self { job, threads: tyndall::engine::Backend::width(&run.backend()) }
     }
 
-    /// Everything: images, errors, films, the record.
-    pub fn write(&self, outcome: &Outcome) -> Result<(), Failure> {
+    /// Everything: images, errors, films, the record. Tells how good the errors are, if there are any.
+    pub fn write(&self, outcome: &Outcome) -> Result<Option<ErrorSummary>, Failure> {
         let film = &outcome.state.film;
         if film.samples() == 0 {
             tracing::warn!("no sample was taken: no image is written");
-            return Ok(());
+            return Ok(None);
         }
         self.images(film)?;
         for file in self.job.files.iter().filter(|f| f.kind == FileKind::Film) {
@@ -41,7 +42,9 @@ impl<'j> Writer<'j> {
             }
             shard::save(&file.path, &self.job.plan.job, &outcome.state).map_err(Error::from)?;
         }
-        Ok(self.record(outcome).write(&self.job.names.run_json)?)
+        let summary = film.summary();
+        self.record(outcome, &summary).write(&self.job.names.run_json)?;
+        Ok(Some(summary))
     }
 
     /// The images, with the errors beside an EXR.
@@ -53,7 +56,7 @@ impl<'j> Writer<'j> {
         Ok(())
     }
 
-    fn record(&self, outcome: &Outcome) -> Record {
+    fn record(&self, outcome: &Outcome, summary: &ErrorSummary) -> Record {
         let job = self.job;
         let [load, build] = job.plan.loaded.seconds;
         let position = &outcome.state.position;
@@ -64,8 +67,7 @@ impl<'j> Writer<'j> {
             threads: self.threads,
             samples: position.samples,
         };
-        let film = &outcome.state.film;
-        Record::new(film, &film.summary(), &job.provenance, circumstances)
+        Record::new(&outcome.state.film, summary, &job.provenance, circumstances)
     }
 }
 
@@ -101,7 +103,8 @@ pub fn write_image(image: &Image, path: &Path, kind: FileKind) -> Result<(), Err
                 );
             }
         }
-        FileKind::Csv => table::write(path, image, &[])?,
+        FileKind::Csv => table::write(path, image, &Rows::All)?,
+        FileKind::Netcdf => cube::write(path, image)?,
         FileKind::Film => {}
     }
     Ok(())

@@ -1,0 +1,94 @@
+//! The part of the walk that lies in media that vary in space.
+
+use super::Walk;
+use crate::{
+    direct::Scatterer,
+    observer::{Event, PathObserver},
+    shadow::Place,
+    tracking::{Collision, Flight, Traveller, fly},
+};
+use tyndall_base::Vec3;
+use tyndall_geometry::Ray;
+use tyndall_spectral::Spectrum;
+use tyndall_transport::{media::Heterogeneous, sampler::PathSampler};
+
+impl<'s, const N: usize> Walk<'s, N> {
+    /// Crosses `medium` up to `t_max`; `None` when the path got through, else whether it goes on from where it scattered.
+    #[inline(always)]
+    pub(super) fn travel(
+        &mut self,
+        medium: &'s Heterogeneous,
+        t_max: f32,
+        sampler: &mut PathSampler,
+        seen: &mut impl PathObserver<N>,
+    ) -> Option<bool> {
+        let mut emitted = Spectrum::ZERO;
+        let traveller = Traveller {
+            ray: self.ray,
+            t_max,
+            w: self.w,
+            settings: self.settings,
+            flight: &mut self.flight,
+            weight: &mut self.weight,
+            emitted: &mut emitted,
+            rng: sampler.stream(),
+        };
+        let flight = fly(medium, traveller);
+        if !emitted.is_zero() {
+            seen.contribution(self.depth, &emitted);
+            self.l += emitted;
+        }
+        match flight {
+            Flight::Through => None,
+            Flight::Ended => Some(false),
+            Flight::Scattered(collision) => Some(self.scatter_varying(&collision, sampler, seen)),
+        }
+    }
+
+    /// A scattering whose flight is in the weight already.
+    #[inline(always)]
+    fn scatter_varying(
+        &mut self,
+        collision: &Collision<'s, N>,
+        sampler: &mut PathSampler,
+        seen: &mut impl PathObserver<N>,
+    ) -> bool {
+        let p = self.ray.at(collision.t);
+        self.watch(Event::Medium, p, Vec3::ZERO, collision.t, collision.albedo, seen);
+        if self.depth >= self.settings.max_depth {
+            return false;
+        }
+        self.depth += 1;
+        sampler.seek_vertex(self.depth - 1);
+        self.weight.r_e = Spectrum::ZERO;
+        self.rival = None;
+        (self.previous, self.facing) = (p, Vec3::ZERO);
+        self.scattered_widely = true;
+
+        let wo = -self.ray.d;
+        let scattering = &collision.scattering;
+        if self.settings.light_sampling {
+            let (medium, inside) = (self.medium, self.inside);
+            let vertex = Scatterer {
+                p,
+                n: Vec3::ZERO,
+                spawn: |_| (p, medium),
+                eval: |wi| {
+                    let phase = scattering.eval(wo, wi, self.w);
+                    (phase, phase)
+                },
+                rival: None,
+                known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
+            };
+            self.direct(&vertex, sampler, seen);
+        }
+        let uc = sampler.next_1d();
+        let u = sampler.next_2d();
+        let Some(s) = scattering.sample(wo, uc, [u.x, u.y], self.w) else { return false };
+        if !self.weight.scatter(s.p, s.p, false) {
+            return false;
+        }
+        self.ray = Ray { time: self.ray.time, ..Ray::new(p, s.wi) };
+        self.survives(sampler)
+    }
+}

@@ -1,0 +1,9 @@
+//! Media that vary in space, every kind of them, in several bands at once: known answers, and what must not matter.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod invariance;
+mod known;
+mod media;
+mod sparse;
+mod table;
