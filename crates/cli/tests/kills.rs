@@ -95,7 +95,7 @@ fn wait_for_a_moment(place: &Place, child: &mut Child, moments: &mut Moments) {
         let now = stamp();
         seen += u64::from(now.is_some() && now != last);
         last = now.or(last);
-        std::thread::sleep(Duration::from_micros(200));
+        std::thread::sleep(Duration::from_millis(1));
     }
     std::thread::sleep(Duration::from_micros(moments.next(20_000)));
 }

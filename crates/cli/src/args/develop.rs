@@ -83,7 +83,8 @@ impl DevelopArgs {
     /// Refuses what cannot be combined.
     pub(super) fn check(&self) -> Result<(), Conflict> {
         let tables = self.output.iter().any(|file| file.kind.is_table());
-        if !(self.probe.is_empty() && self.region.is_empty()) && !tables {
+        let rows = !self.probe.is_empty() || !self.region.is_empty();
+        if rows && !tables {
             return Err(Conflict::new(
                 "--probe and --region choose rows of a table, and no table is written",
                 "add -o NAME.csv",
