@@ -184,7 +184,7 @@ fn pooled_covariances_agree_with_the_errors_and_see_what_channels_share() {
     };
     for (a, c) in [(0, 1), (0, 2), (1, 2)] {
         assert!((p.covariance(a, c) / by_hand(a, c) - 1.0).abs() < 1e-5);
-        assert_eq!(p.covariance(a, c), p.covariance(c, a));
+        assert!((p.covariance(a, c) / p.covariance(c, a) - 1.0).abs() < 1e-12);
     }
     let unknown = self::film(&spec(ErrorMode::Conservative, Weights::Unit), &samples).pooled();
     assert!(unknown.covariance(0, 1).is_infinite());

@@ -5,9 +5,9 @@ mod common;
 use common::{Bands, Run, judge::Family, scene};
 
 const BANDS: Bands = Bands::new(8);
-const TAU: [f64; 8] = [0.5, 2.0, 1.0, 0.2, 3.0, 0.8, 1.5, 0.1];
+const TAU: [f64; 8] = [0.5, 2.0, 1.0, 0.4, 3.0, 0.8, 1.5, 0.6];
 const ALBEDO: [f64; 8] = [0.9, 0.99, 0.5, 1.0, 0.95, 0.3, 0.8, 0.7];
-const G: [f64; 8] = [0.5, -0.3, 0.8, 0.0, 0.7, 0.2, -0.5, 0.9];
+const G: [f64; 8] = [0.5, -0.3, 0.6, 0.0, 0.7, -0.2, -0.5, 0.3];
 
 fn medium(name: &str) -> String {
     scene::medium(&BANDS, name, &TAU, &ALBEDO, &scene::asymmetry(&BANDS, &G))

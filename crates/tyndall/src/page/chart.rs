@@ -220,7 +220,7 @@ fn frame(title: &str, layout: Layout, [width, height]: [f64; 2]) -> Layout {
         .with_label_size(13)
         .with_tick_size(11)
         .with_font_family("system-ui, sans-serif")
-        .with_legend_position(LegendPosition::OutsideBottomColumns)
+        .with_legend_position(LegendPosition::OutsideRightTop)
 }
 
 /// Text in which `$` starts no formula.

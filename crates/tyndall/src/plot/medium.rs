@@ -44,7 +44,7 @@ fn charts(name: &str, medium: &Medium, range: LambdaRange) -> [String; 4] {
             f(a, s)
         })
     };
-    let nm = || Axis::new("wavelength [nm]");
+    let nm = || super::wavelength(range);
     let coefficients = Chart::new(&format!("{name}: coefficients"), nm(), Axis::new("[1/m]"))
         .with(Series::line("sigma_a", at(|a, _| a)))
         .with(Series::line("sigma_s", at(|_, s| s)))

@@ -10,7 +10,7 @@ pub use pixel::pixel;
 pub use spectrum::spectrum;
 pub use subject::Subject;
 
-use crate::{Error, Options};
+use crate::{Error, Options, page::Axis};
 
 /// Draws a subject.
 ///
@@ -22,6 +22,11 @@ pub fn plot(subject: &Subject, options: &Options) -> Result<String, Error> {
         Subject::Spectrum { name } => spectrum(name, options),
         Subject::Pixel { image, x, y } => pixel(image, *x, *y),
     }
+}
+
+/// The axis of wavelengths.
+fn wavelength(range: tyndall_spectral::LambdaRange) -> Axis {
+    Axis::new("wavelength [nm]").range(f64::from(range.min), f64::from(range.max))
 }
 
 /// Every nm of the range, at least 200 steps, with a function's value there.

@@ -18,7 +18,9 @@ pub fn spectrum(name: &str, options: &Options) -> Result<String, Error> {
         None => from_file(name, options)?,
     };
     let y = if name.starts_with("glass-") || name.ends_with("-eta") { "refractive index" } else { "value" };
-    Ok(Chart::new(name, Axis::new("wavelength [nm]"), Axis::new(y)).with(Series::line("", points)).to_svg())
+    Ok(Chart::new(name, super::wavelength(options.range), Axis::new(y))
+        .with(Series::line("", points))
+        .to_svg())
 }
 
 /// Read as a scene would read it: the same rules, the same messages.
