@@ -5,8 +5,9 @@ use crate::{
     isa::{Isa, Set},
     layers::{Layers, Recorder},
     observer::PathObserver,
+    opaw::{self, AllWavelengths},
     settings::Settings,
-    volpath,
+    swc, volpath, wang_chern,
 };
 use std::sync::Arc;
 use tyndall_base::vec::vec2;
@@ -23,6 +24,15 @@ pub enum Method {
     Volpath,
     /// [`crate::analog`].
     Analog,
+    /// [`crate::wang_chern`].
+    WangChern,
+}
+
+impl Method {
+    /// True for integrators whose paths carry one wavelength and no more.
+    pub const fn is_single(self) -> bool {
+        matches!(self, Self::Analog | Self::WangChern)
+    }
 }
 
 /// Wavelengths a path carries.
@@ -62,6 +72,29 @@ impl Lanes {
     }
 }
 
+/// How the wavelengths of a path share its decisions.
+#[derive(Clone, Debug, Default)]
+pub enum Sharing {
+    /// The hero decides; spectral multiple importance sampling, or a single wavelength.
+    #[default]
+    Hero,
+    /// Until they part: [`crate::swc`].
+    Clusters,
+    /// Means decide: [`crate::opaw`]. The wavelengths are those of the set, whatever the sampler draws.
+    Means(Arc<AllWavelengths>),
+}
+
+impl Sharing {
+    /// Lanes for a path of means over `count` wavelengths: all of them, or groups of 16.
+    pub const fn lanes_for(count: usize) -> Lanes {
+        match count {
+            0..=4 => Lanes::Four,
+            5..=8 => Lanes::Eight,
+            _ => Lanes::Sixteen,
+        }
+    }
+}
+
 /// Everything that turns (pixel, sample) into numbers on the film.
 #[derive(Clone, Debug)]
 pub struct PixelPass {
@@ -73,6 +106,8 @@ pub struct PixelPass {
     pub settings: Settings,
     /// Wavelengths a path carries.
     pub lanes: Lanes,
+    /// How they share its decisions.
+    pub sharing: Sharing,
     /// How they are drawn.
     pub wavelengths: WavelengthSampler,
     /// The film's response curves.
@@ -90,12 +125,12 @@ pub struct PixelPass {
 }
 
 /// A sample on its way: where it started and what it draws from.
-struct Start<const N: usize> {
-    ray: Ray,
+pub(crate) struct Start<const N: usize> {
+    pub(crate) ray: Ray,
     weight: f32,
-    first_distance: f32,
-    w: Wavelengths<N>,
-    sampler: PathSampler,
+    pub(crate) first_distance: f32,
+    pub(crate) w: Wavelengths<N>,
+    pub(crate) sampler: PathSampler,
 }
 
 impl Pass for PixelPass {
@@ -144,12 +179,44 @@ impl PixelPass {
         for (x, y) in unit.window.pixels() {
             for sample in guide.samples_for(x, y, &unit.samples) {
                 out.mark(x, y, sample);
-                let mut start = self.start::<N>(x, y, sample);
-                let l = self.li(&mut start, &mut ());
-                self.channels.respond(&l, &start.w, &mut values);
-                out.add_sample(x, y, sample, start.weight, &values);
+                let weight = match &self.sharing {
+                    Sharing::Means(all) => self.all_wavelengths::<N>(all, x, y, sample, &mut values),
+                    _ => {
+                        let mut start = self.start::<N>(x, y, sample);
+                        let l = self.li(&mut start, &mut ());
+                        self.channels.respond(&l, &start.w, &mut values);
+                        start.weight
+                    }
+                };
+                out.add_sample(x, y, sample, weight, &values);
             }
         }
+    }
+
+    /// One path of means: the set in groups of N, all from the same random numbers. Returns the filter's weight.
+    #[inline(always)]
+    fn all_wavelengths<const N: usize>(
+        &self,
+        all: &AllWavelengths,
+        x: u32,
+        y: u32,
+        sample: u32,
+        values: &mut [f32],
+    ) -> f32 {
+        // responses are means over N lanes, the pixel's value is the mean over the set
+        let share = N as f32 / all.set().lambda().len() as f32;
+        let mut part = vec![0.0; values.len()];
+        let mut weight = 0.0;
+        values.fill(0.0);
+        for g in 0..all.set().groups::<N>() {
+            let mut start = self.start::<N>(x, y, sample);
+            start.w = all.set().group(g);
+            let l = self.li(&mut start, &mut ());
+            self.channels.respond(&l, &start.w, &mut part);
+            values.iter_mut().zip(&part).for_each(|(v, p)| *v += share * p);
+            weight = start.weight;
+        }
+        weight
     }
 
     /// The same with layers: orders of scattering and AOVs behind the image's channels.
@@ -186,7 +253,7 @@ impl PixelPass {
     }
 
     #[inline(always)]
-    fn start<const N: usize>(&self, x: u32, y: u32, sample: u32) -> Start<N> {
+    pub(crate) fn start<const N: usize>(&self, x: u32, y: u32, sample: u32) -> Start<N> {
         let mut sampler = PathSampler::new(self.settings.sampler, self.seed, x, y, sample, self.replicates);
         let u_film = sampler.next_2d();
         let u_spectrum = sampler.next_2d();
@@ -195,15 +262,23 @@ impl PixelPass {
         let filter = self.filter.sample([u_film.x, u_film.y]);
         let film = vec2(x as f32 + 0.5 + filter.offset[0], y as f32 + 0.5 + filter.offset[1]);
         let ray = self.scene.camera.sample_ray(&CameraSample { film, lens, time });
-        let w = self.wavelengths.sample::<N>(u_spectrum.x);
+        let w = match &self.sharing {
+            Sharing::Means(all) => all.set().group::<N>(0),
+            _ => self.wavelengths.sample::<N>(u_spectrum.x),
+        };
         Start { ray, weight: filter.weight, first_distance: u_spectrum.y, w, sampler }
     }
 
     #[inline(always)]
     fn li<const N: usize>(&self, start: &mut Start<N>, seen: &mut impl PathObserver<N>) -> Spectrum<N> {
         let Start { ray, first_distance, w, sampler, .. } = start;
-        if self.method == Method::Analog {
-            return analog::li(&self.scene, self.settings.max_depth, *ray, w, sampler, seen);
+        let (scene, settings, first) = (&*self.scene, &self.settings, *first_distance);
+        match (&self.sharing, self.method) {
+            (Sharing::Clusters, _) => return swc::li(scene, settings, *ray, first, w, sampler, seen),
+            (Sharing::Means(all), _) => return opaw::li(scene, settings, all, *ray, first, w, sampler, seen),
+            (_, Method::Analog) => return analog::li(scene, settings.max_depth, *ray, w, sampler, seen),
+            (_, Method::WangChern) => return wang_chern::li(scene, settings, *ray, w, sampler, seen),
+            (_, Method::Volpath) => {}
         }
         volpath::li(&self.scene, &self.settings, *ray, *first_distance, w, sampler, seen)
     }

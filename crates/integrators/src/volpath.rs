@@ -37,6 +37,21 @@ pub fn li<const N: usize>(
     sampler: &mut PathSampler,
     seen: &mut impl PathObserver<N>,
 ) -> Spectrum<N> {
+    li_from(scene, settings, PathWeight::START, ray, first, w, sampler, seen)
+}
+
+/// The same with another weight at the camera: lanes whose density there is zero are carried by the others.
+#[inline(always)]
+pub fn li_from<const N: usize>(
+    scene: &Scene,
+    settings: &Settings,
+    weight: PathWeight<N>,
+    ray: Ray,
+    first: f32,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+    seen: &mut impl PathObserver<N>,
+) -> Spectrum<N> {
     let mut walk = Walk {
         scene,
         settings,
@@ -46,7 +61,7 @@ pub fn li<const N: usize>(
         facing: Vec3::ZERO,
         medium: scene.camera_medium,
         inside: Inside::of(scene, scene.camera_medium, w),
-        weight: PathWeight::START,
+        weight,
         rival: None,
         lamp: glow::lamp(scene, settings, sampler),
         flight: warp::sample_exponential(first, 1.0),

@@ -20,6 +20,16 @@ pub enum Spectral {
         /// A fixed set of so many equidistant wavelengths; `None` draws from the continuum.
         set: Option<(u32, Rule)>,
     },
+    /// One path, all wavelengths of a fixed set, decisions by their means: biased in chromatic media.
+    Opaw {
+        /// Size and rule of the set.
+        set: (u32, Rule),
+    },
+    /// Stratified wavelength clusters (Evans & McCool 1999): several on one path until they must part.
+    Swc {
+        /// 1, 4, 8 or 16.
+        wavelengths: u32,
+    },
 }
 
 impl Spectral {
@@ -28,6 +38,17 @@ impl Spectral {
         match self {
             Self::Hero { .. } => "hero",
             Self::Opow { .. } => "opow",
+            Self::Opaw { .. } => "opaw",
+            Self::Swc { .. } => "swc",
+        }
+    }
+
+    /// The fixed set, where there is one.
+    pub const fn set(&self) -> Option<(u32, Rule)> {
+        match *self {
+            Self::Opow { set } => set,
+            Self::Opaw { set } => Some(set),
+            Self::Hero { .. } | Self::Swc { .. } => None,
         }
     }
 }
@@ -35,8 +56,10 @@ impl Spectral {
 /// Density that wavelengths are drawn from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WavelengthPdf {
-    /// What the lights emit and the film sees.
+    /// `Light`, but `Uniform` for the integrator `wang-chern`, as in the paper.
     #[default]
+    Auto,
+    /// What the lights emit and the film sees.
     Light,
     /// What the eye sees.
     Visible,
@@ -57,6 +80,8 @@ pub struct Options {
     pub range: LambdaRange,
     /// Another integrator than the scene's.
     pub integrator: Option<String>,
+    /// Another choice than the scene's whether lights are sampled.
+    pub light_sampling: Option<bool>,
     /// Another depth than the scene's; `u32::MAX` is unlimited.
     pub max_depth: Option<u32>,
     /// Another size than the scene's.
@@ -96,9 +121,10 @@ impl Default for Options {
         Self {
             spp: None,
             spectral: Spectral::Hero { wavelengths: 8 },
-            wavelength_pdf: WavelengthPdf::Light,
+            wavelength_pdf: WavelengthPdf::Auto,
             range: LambdaRange::VISIBLE,
             integrator: None,
+            light_sampling: None,
             max_depth: None,
             resolution: None,
             crop: None,

@@ -5,6 +5,7 @@ use crate::{
     camera_matrices::CameraMatrices,
     options::{Spectral, WavelengthPdf},
     provenance::{entry, join},
+    strategy,
 };
 use std::{path::Path, sync::Arc};
 use tyndall_engine::Job;
@@ -13,13 +14,10 @@ use tyndall_geometry::Dispatch;
 use tyndall_integrators::{
     isa::Isa,
     layers::{Aov, Layers},
-    pixel::{Lanes, Method, PixelPass},
+    pixel::{Lanes, PixelPass},
 };
 use tyndall_io::{LoadOptions, LoadedScene, load_file, load_text, scene::crop_bounds};
-use tyndall_spectral::{
-    Curve, Emission, LambdaRange, WavelengthSampler, cie,
-    strategy::{Density, FixedSet},
-};
+use tyndall_spectral::LambdaRange;
 use tyndall_transport::Scene;
 
 /// The scene that is rendered when none is named: a Cornell box filled with bluish fog, absolute units.
@@ -50,6 +48,8 @@ pub struct Plan {
     pub range: LambdaRange,
     /// The spectral strategy.
     pub spectral: Spectral,
+    /// What a reader of the image should know about the strategy.
+    pub notes: Vec<String>,
     /// The integrator's name.
     pub integrator: String,
     /// The image's channels: RGB, then bands.
@@ -82,17 +82,23 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         loaded.film.band_edges.clone_from(edges);
     }
     check_bands(&loaded.film.band_edges, options.range)?;
-    let channels = loaded.film.channels()?;
-    let wavelengths = sampler(&loaded, options)?;
+    let channels = strategy::channels(&loaded.film, options)?;
     let settings = {
         let mut s = loaded.integrator.settings.clone();
         s.sampler = loaded.sampler.kind;
         s.max_depth = options.max_depth.unwrap_or(s.max_depth);
+        s.light_sampling = options.light_sampling.unwrap_or(s.light_sampling);
         s
     };
     let method = loaded.integrator.method;
-    check_method(method, &loaded.scene)?;
-    let lanes = lanes(method, options)?;
+    let spectral = strategy::effective(options.spectral, method)?;
+    strategy::check_method(method, &settings, &loaded.scene)?;
+    strategy::check_media(method, spectral, &loaded.scene)?;
+    let pdf = strategy::density(options.wavelength_pdf, method);
+    let wavelengths = strategy::sampler(&loaded, options, spectral, pdf)?;
+    let lanes = strategy::lanes(method, spectral)?;
+    let sharing = strategy::sharing(spectral, &wavelengths, &loaded.scene);
+    strategy::check_layers(spectral, options)?;
     let layers = Layers {
         orders: options.orders.clone(),
         aovs: aovs(&loaded, options),
@@ -103,7 +109,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
     let spp = options.spp.unwrap_or(loaded.sampler.spp);
     let mut job = Job::new(spec, spp);
     job.scene_hash.clone_from(&loaded.hash);
-    job.settings = identity(&loaded, options, &settings, lanes);
+    job.settings = identity(&loaded, options, &settings, lanes, spectral, pdf);
     (job.target, job.time, job.shard) = (options.target.clone(), options.time, options.shard);
     job.guide = options.guide.clone();
     job.validate()?;
@@ -111,12 +117,14 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         ErrorMode::Conservative => 1,
         ErrorMode::Replicated { replicates } => replicates,
     };
+    let notes = strategy::notes(spectral, &loaded.scene, options.range);
     let scene = std::mem::replace(&mut loaded.scene, Scene::empty());
     let pass = PixelPass {
         scene: Arc::new(scene),
         method,
         settings,
         lanes,
+        sharing,
         wavelengths,
         channels: channels.clone(),
         filter: loaded.filter.clone(),
@@ -126,7 +134,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         isa: isa(options.dispatch)?,
     };
     let integrator = loaded.integrator.name.clone();
-    Ok(Plan { loaded, pass, job, range: options.range, spectral: options.spectral, integrator, channels })
+    Ok(Plan { loaded, pass, job, range: options.range, spectral, notes, integrator, channels })
 }
 
 fn isa(dispatch: Dispatch) -> Result<Isa, Error> {
@@ -179,69 +187,6 @@ fn aovs(loaded: &LoadedScene, options: &Options) -> Vec<Aov> {
     options.aovs.clone()
 }
 
-/// Analog paths meet lights by chance only.
-fn check_method(method: Method, scene: &Scene) -> Result<(), Error> {
-    if method == Method::Analog && scene.lights.iter().any(|l| l.is_hidden()) {
-        return Err(Error::options(
-            "--integrator analog: the scene has point, spot or distant lights, which no path meets by chance",
-            Some("give the light a size, or use --integrator volpath".into()),
-        ));
-    }
-    Ok(())
-}
-
-fn lanes(method: Method, options: &Options) -> Result<Lanes, Error> {
-    let count = match options.spectral {
-        Spectral::Hero { wavelengths } if method == Method::Volpath => wavelengths,
-        _ => 1,
-    };
-    Lanes::from_count(count).ok_or_else(|| {
-        Error::options(
-            format!("--wavelengths {count}: a path of --spectral hero carries 1, 4, 8 or 16 wavelengths"),
-            Some("for a fixed set of any size use --spectral opow".into()),
-        )
-    })
-}
-
-/// The density of wavelengths, with every spectral line of the scene.
-fn sampler(loaded: &LoadedScene, options: &Options) -> Result<WavelengthSampler, Error> {
-    let sources = loaded.scene.emitters();
-    let lines = sources.iter().any(|(_, e)| !e.lines().is_empty());
-    if let Spectral::Opow { set: Some((count, rule)) } = options.spectral {
-        if lines {
-            return Err(Error::options(
-                "a fixed set of wavelengths misses the scene's spectral lines",
-                Some("leave out --wavelengths to draw from the continuum and the lines".into()),
-            ));
-        }
-        return Ok(FixedSet::new(options.range, count as usize, rule)?.into());
-    }
-    let weighted: Vec<(f32, &Emission)> = sources.iter().map(|(w, e)| (*w, *e)).collect();
-    let responses = responses(&loaded.film.band_edges)?;
-    let density = match options.wavelength_pdf {
-        WavelengthPdf::Uniform | WavelengthPdf::Visible if lines => {
-            let all: Vec<_> = sources.iter().flat_map(|(_, e)| e.lines().iter().copied()).collect();
-            Density::uniform_with_lines(options.range, &all, 0.3)?
-        }
-        WavelengthPdf::Uniform => Density::uniform(options.range),
-        WavelengthPdf::Visible => Density::visible(options.range)?,
-        WavelengthPdf::Light if weighted.is_empty() => Density::uniform(options.range),
-        // light that no response sees leaves the density to the range alone
-        WavelengthPdf::Light => Density::light(options.range, &responses, &weighted)
-            .or_else(|_| Density::uniform_with_lines(options.range, &[], 0.0))?,
-    };
-    Ok(density.into())
-}
-
-/// What the film sees: the colour matching functions and, for bands, each band.
-fn responses(edges: &[f32]) -> Result<Vec<Curve>, Error> {
-    let mut all = cie::matching_functions().to_vec();
-    for e in edges.windows(2) {
-        all.push(Curve::step(e, &[1.0 / (e[1] - e[0])], tyndall_spectral::Outside::Zero)?);
-    }
-    Ok(all)
-}
-
 /// The channels' response to a flat spectrum of value 1 over the range.
 fn flat(channels: &Channels, range: LambdaRange) -> Vec<f32> {
     let steps = 4 * range.width().ceil() as usize;
@@ -282,21 +227,20 @@ fn identity(
     options: &Options,
     settings: &tyndall_integrators::Settings,
     lanes: Lanes,
+    spectral: Spectral,
+    pdf: WavelengthPdf,
 ) -> Vec<(String, String)> {
     let pair = |k: &str, v: String| (k.to_owned(), v);
-    let wavelengths = match options.spectral {
-        Spectral::Opow { set: None } => "continuum".into(),
-        Spectral::Opow { set: Some((count, _)) } => count.to_string(),
-        Spectral::Hero { .. } => lanes.count().to_string(),
+    let wavelengths = match (spectral, spectral.set()) {
+        (_, Some((count, _))) => count.to_string(),
+        (Spectral::Opow { .. }, None) => "continuum".into(),
+        _ => lanes.count().to_string(),
     };
-    let rule = match options.spectral {
-        Spectral::Opow { set: Some((_, rule)) } => format!("{rule:?}"),
-        _ => format!("{:?}", options.wavelength_pdf),
-    };
+    let rule = spectral.set().map_or_else(|| format!("{pdf:?}"), |(_, rule)| format!("{rule:?}"));
     vec![
         pair(entry::INTEGRATOR, loaded.integrator.name.clone()),
         pair("integrator settings", format!("{settings:?}")),
-        pair(entry::SPECTRAL, options.spectral.name().into()),
+        pair(entry::SPECTRAL, spectral.name().into()),
         pair(entry::WAVELENGTHS, wavelengths),
         pair("wavelength density", rule),
         pair(entry::RANGE, join(&[options.range.min, options.range.max])),

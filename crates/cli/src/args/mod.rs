@@ -7,6 +7,7 @@ mod develop;
 mod diff;
 mod info;
 mod merge;
+mod paper;
 mod plot;
 mod render;
 mod scene;
@@ -21,10 +22,11 @@ pub use develop::{DevelopArgs, DevelopSpace};
 pub use diff::DiffArgs;
 pub use info::InfoArgs;
 pub use merge::MergeArgs;
+pub use paper::PaperArgs;
 pub use plot::PlotArgs;
 pub use render::{
     BUILT_IN_SCENE, CheckpointFile, ErrorMode, InstructionSet, Integrator, LightArgs, Names, OutputArgs,
-    RenderArgs, ReplayArgs, RunArgs, SpectralStrategy, StopArgs, WavelengthPdf, WavelengthRule,
+    RenderArgs, ReplayArgs, RunArgs, SpectralStrategy, StopArgs, Switch, WavelengthPdf, WavelengthRule,
 };
 pub use scene::SceneArgs;
 pub use validate::ValidateArgs;
@@ -66,6 +68,8 @@ pub enum Command {
     Diff(DiffArgs),
     /// Tell what is in a scene, and what of it is used
     Info(InfoArgs),
+    /// Reproduce the figures of Wang and Chern (2001)
+    Paper(PaperArgs),
     /// Draw curves of a medium, a spectrum or a pixel as SVG
     Plot(PlotArgs),
     /// Render scenes with known answers, and compare

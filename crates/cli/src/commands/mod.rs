@@ -6,6 +6,7 @@ mod diff;
 mod doubts;
 mod info;
 mod merge;
+mod paper;
 mod plot;
 mod print;
 mod render;
@@ -27,6 +28,7 @@ pub fn run(command: Command, log: &LogArgs, console: &Console) -> Result<(), Fai
         Command::Merge(args) => merge::run(&args),
         Command::Develop(args) => develop::run(&args),
         Command::Diff(args) => diff::run(&args),
+        Command::Paper(args) => paper::run(&args, log, console),
         Command::Info(args) => info::run(&args, log, console),
         Command::Plot(args) => plot::run(&args),
         Command::Validate(args) => validate::run(&args, log, console),

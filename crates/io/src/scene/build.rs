@@ -249,6 +249,9 @@ fn integrator(
     let renamed = declared.map(|d| Declared { name: Text::new(name.as_str(), d.name.span()), ..d.clone() });
     let mut found = render::integrator(ctx, renamed.as_ref())?;
     (found.name, found.method, found.ignores_media) = (name.clone(), method, ignores_media);
+    if declared.is_none() {
+        found.settings = render::default_settings(method);
+    }
     Ok(found)
 }
 

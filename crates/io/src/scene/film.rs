@@ -36,7 +36,11 @@ pub struct FilmDescription {
 impl FilmDescription {
     /// The response curves: RGB and, if there are any, bands.
     pub fn channels(&self) -> Result<Channels, FilmError> {
-        let mut sensor = Sensor::cie1931(self.imaging_ratio);
+        self.channels_of(Sensor::cie1931(self.imaging_ratio))
+    }
+
+    /// The same with another sensor.
+    pub fn channels_of(&self, mut sensor: Sensor) -> Result<Channels, FilmError> {
         let space = tyndall_spectral::ColourSpace::get(self.space);
         if let Some(name) = &self.sensor {
             // pbrt's white balance of a measured sensor, where the scene gives none

@@ -86,12 +86,14 @@ pub fn integrator_named(name: &str) -> Option<(Method, bool)> {
         "volpath" | "simplevolpath" => Some((Method::Volpath, false)),
         "path" | "simplepath" => Some((Method::Volpath, true)),
         "analog" => Some((Method::Analog, false)),
+        "wang-chern" => Some((Method::WangChern, false)),
         _ => None,
     }
 }
 
 /// Names for messages.
-pub const INTEGRATORS: &str = "volpath, analog, path (leaves media out), simplepath and simplevolpath";
+pub const INTEGRATORS: &str =
+    "volpath, analog, wang-chern, path (leaves media out), simplepath and simplevolpath";
 
 const KNOWN: &[&str] = &[
     "maxdepth",
@@ -134,7 +136,7 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
     for name in ["samplebsdf", "samplelights"] {
         p.ignore(name, "directions are chosen by both techniques");
     }
-    let settings = settings(p)?;
+    let settings = settings(p, method)?;
     let selection = selection(p)?;
     ctx.finish(p, KNOWN);
     Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, selection })
@@ -153,8 +155,13 @@ fn selection(p: &ParamSet) -> Result<Selection, Error> {
     }
 }
 
-fn settings(p: &ParamSet) -> Result<Settings, Error> {
-    let default = Settings::default();
+/// The switches of a method where the scene says nothing: the paper's paths meet lights by chance.
+pub(super) fn default_settings(method: Method) -> Settings {
+    Settings { light_sampling: method != Method::WangChern, ..Settings::default() }
+}
+
+fn settings(p: &ParamSet, method: Method) -> Result<Settings, Error> {
+    let default = default_settings(method);
     let depth = p.integer("maxdepth", 5)?;
     let equiangular = match p.string("equiangular", "auto")?.as_str() {
         "auto" => Equiangular::Auto,

@@ -11,11 +11,13 @@
 mod density;
 mod fixed;
 mod importance;
+mod meyer;
 
 use std::sync::Arc;
 
 pub use density::Density;
 pub use fixed::{FixedSet, Rule};
+pub use meyer::Meyer;
 
 use crate::range::LambdaRange;
 use crate::wavelengths::{CONTINUUM, Wavelengths};

@@ -30,6 +30,8 @@ pub const REFERENCE: Variant = with_options("defaults", |_| {}, 6);
 
 /// A photon's history: nothing of the path integrator's machinery.
 const ANALOG: Variant = with_options("analog", |o| o.integrator = Some("analog".into()), 6);
+/// The paper's algorithm.
+const WANG_CHERN: Variant = with_options("wang-chern", |o| o.integrator = Some("wang-chern".into()), 6);
 const FIXED_80: Variant = with_options(
     "opow, 80 wavelengths",
     |o| o.spectral = Spectral::Opow { set: Some((80, Rule::Midpoint)) },
@@ -63,6 +65,9 @@ const EVERYWHERE: &[Variant] = &[
     with_options("hero 1", |o| o.spectral = Spectral::Hero { wavelengths: 1 }, 2),
     with_options("hero 4", |o| o.spectral = Spectral::Hero { wavelengths: 4 }, 1),
     with_options("hero 16", |o| o.spectral = Spectral::Hero { wavelengths: 16 }, 1),
+    with_options("swc 4", |o| o.spectral = Spectral::Swc { wavelengths: 4 }, 2),
+    with_options("swc 8", |o| o.spectral = Spectral::Swc { wavelengths: 8 }, 1),
+    with_options("wang-chern, lights sampled", paper_with_lights, 3),
     with_options("opow, continuum", |o| o.spectral = Spectral::Opow { set: None }, 3),
     Variant {
         blind_to_outer_bands: true,
@@ -74,6 +79,11 @@ const EVERYWHERE: &[Variant] = &[
     with_settings("all off", all_off, 3),
     HERO_4_BY_FLIGHTS,
 ];
+
+fn paper_with_lights(o: &mut Options) {
+    o.integrator = Some("wang-chern".into());
+    o.light_sampling = Some(true);
+}
 
 fn events_and_equiangular(s: &mut Settings) {
     (s.survival, s.exact_transmittance, s.equiangular) = (false, false, Equiangular::Always);
@@ -92,7 +102,7 @@ pub fn of(scene: &SmallScene) -> Vec<Variant> {
         all.retain(|v| !matches!(v.name, "light sampling off" | "all off"));
         all.push(CONE_CLIPPING_OFF);
     } else {
-        all.push(ANALOG);
+        all.extend([ANALOG, WANG_CHERN]);
     }
     if !scene.lines {
         all.push(FIXED_80);

@@ -24,6 +24,7 @@ pub struct Run {
     pub max_depth: u32,
     pub seed: u64,
     pub errors: ErrorMode,
+    pub light_sampling: Option<bool>,
     pub dispatch: Dispatch,
 }
 
@@ -40,6 +41,7 @@ impl Run {
             max_depth: u32::MAX,
             seed: 1,
             errors: ErrorMode::Replicated { replicates: REPLICATES },
+            light_sampling: None,
             dispatch: Dispatch::Detect,
         }
     }
@@ -78,6 +80,7 @@ impl Run {
             band_edges: Some(self.bands.edges()),
             seed: Some(self.seed),
             errors: self.errors,
+            light_sampling: self.light_sampling,
             dispatch: self.dispatch,
             ..Options::default()
         };

@@ -22,13 +22,18 @@ pub struct LightArgs {
     /// 5]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(-1..))]
     pub max_depth: Option<i32>,
-    /// How wavelengths travel
-    #[arg(long, value_enum, value_name = "STRATEGY", default_value_t = SpectralStrategy::Hero)]
-    pub spectral: SpectralStrategy,
-    /// Number of wavelengths [default: 8 for hero, the continuum for opow]
+    /// Choose points on lights (next-event estimation), or meet lights by chance [default: the scene's, else on, but off
+    /// for wang-chern]
+    #[arg(long, value_enum, value_name = "WHETHER")]
+    pub light_sampling: Option<Switch>,
+    /// How wavelengths travel [default: hero; opow for analog and wang-chern]
+    #[arg(long, value_enum, value_name = "STRATEGY")]
+    pub spectral: Option<SpectralStrategy>,
+    /// Number of wavelengths [default: 8 for hero and swc, the continuum for opow, 16 for opaw]
     ///
-    /// For hero: on one path, and one of 1, 4, 8, 16. For opow: size of a fixed set of equidistant wavelengths, any
-    /// number, of which each path carries one; without it each path draws its own from the continuum.
+    /// For hero and swc: on one path, and one of 1, 4, 8, 16. For opow: size of a fixed set of wavelengths, any number, of
+    /// which each path carries one; without it each path draws its own from the continuum. For opaw: size of the
+    /// fixed set that every path carries.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_WAVELENGTHS))]
     pub wavelengths: Option<u32>,
     /// Where the wavelengths of a fixed set lie [default: midpoint]
@@ -54,6 +59,8 @@ pub enum Integrator {
     Volpath,
     /// Absorption and scattering as events, no light sampling: slow, simple, an independent judge
     Analog,
+    /// The algorithm of Wang and Chern 2001: surface or medium at random, one uniform wavelength, no light sampling
+    WangChern,
     /// pbrt's: as volpath, but media are left out
     Path,
     /// pbrt's: runs as path
@@ -68,6 +75,7 @@ impl Integrator {
         match self {
             Self::Volpath => "volpath",
             Self::Analog => "analog",
+            Self::WangChern => "wang-chern",
             Self::Path => "path",
             Self::Simplepath => "simplepath",
             Self::Simplevolpath => "simplevolpath",
@@ -83,6 +91,19 @@ pub enum SpectralStrategy {
     Hero,
     /// One path, one wavelength
     Opow,
+    /// One path, all wavelengths, decisions by their means: biased where media have colour
+    Opaw,
+    /// Stratified wavelength clusters: several on one path, which part where they must
+    Swc,
+}
+
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// Yes
+    On,
+    /// No
+    Off,
 }
 
 /// Where the wavelengths of a fixed set lie.
@@ -92,6 +113,8 @@ pub enum WavelengthRule {
     Midpoint,
     /// From one end of the spectral range to the other
     Endpoints,
+    /// Meyer's four (1988), a Gaussian quadrature in an opponent colour space
+    Meyer,
 }
 
 /// Density that wavelengths are drawn from.
@@ -108,16 +131,25 @@ pub enum WavelengthPdf {
 impl LightArgs {
     /// Refuses what cannot be combined.
     pub(super) fn check(&self) -> Result<(), Conflict> {
-        match (self.spectral, self.wavelengths) {
-            (SpectralStrategy::Hero, Some(n)) if !HERO_WAVELENGTHS.contains(&n) => {
-                return Err(Conflict::new(
-                    format!("--wavelengths {n}: a path of --spectral hero carries 1, 4, 8 or 16 wavelengths"),
-                    "for a fixed set of any size use --spectral opow",
-                ));
-            }
-            _ => {}
+        self.check_integrator()?;
+        let strategy = self.strategy();
+        let name = if strategy == SpectralStrategy::Swc { "swc" } else { "hero" };
+        let together = matches!(strategy, SpectralStrategy::Hero | SpectralStrategy::Swc);
+        if let Some(n) = self.wavelengths.filter(|n| together && !HERO_WAVELENGTHS.contains(n)) {
+            return Err(Conflict::new(
+                format!("--wavelengths {n}: a path of --spectral {name} carries 1, 4, 8 or 16 wavelengths"),
+                "for a fixed set of any size use --spectral opow",
+            ));
         }
-        let fixed_set = self.spectral == SpectralStrategy::Opow && self.wavelengths.is_some();
+        let meyer = self.wavelength_rule == Some(WavelengthRule::Meyer) && !together;
+        if let Some(n) = self.wavelengths.filter(|&n| meyer && n != 4) {
+            return Err(Conflict::new(
+                format!("--wavelength-rule meyer with {n} wavelengths: Meyer's rule has four"),
+                "leave out --wavelengths",
+            ));
+        }
+        let opow_set = strategy == SpectralStrategy::Opow && (self.wavelengths.is_some() || meyer);
+        let fixed_set = opow_set || strategy == SpectralStrategy::Opaw;
         if self.wavelength_rule.is_some() && !fixed_set {
             return Err(Conflict::new(
                 "--wavelength-rule places the wavelengths of a fixed set, and there is none",
@@ -134,6 +166,31 @@ impl LightArgs {
             return Err(Conflict::new(
                 "--wavelength-rule endpoints with one wavelength: there are two end points",
                 "use --wavelengths 2 or more, or the rule `midpoint`",
+            ));
+        }
+        Ok(())
+    }
+
+    /// The strategy: `analog` and `wang-chern` carry one wavelength unless told to carry a set.
+    pub fn strategy(&self) -> SpectralStrategy {
+        self.spectral.unwrap_or(match self.integrator {
+            Some(Integrator::Analog | Integrator::WangChern) => SpectralStrategy::Opow,
+            _ => SpectralStrategy::Hero,
+        })
+    }
+
+    fn check_integrator(&self) -> Result<(), Conflict> {
+        let single = matches!(self.integrator, Some(Integrator::Analog | Integrator::WangChern));
+        if single && self.spectral == Some(SpectralStrategy::Hero) {
+            return Err(Conflict::new(
+                "--spectral hero weighs wavelengths by the densities of volpath, which this integrator has not",
+                "use --integrator volpath, or --spectral opow",
+            ));
+        }
+        if self.integrator == Some(Integrator::Analog) && self.light_sampling == Some(Switch::On) {
+            return Err(Conflict::new(
+                "--light-sampling on: analog paths meet light by chance alone",
+                "use --integrator volpath or wang-chern",
             ));
         }
         Ok(())
@@ -163,6 +220,24 @@ mod tests {
         assert!(render("--spectral opow --wavelengths 1 --wavelength-rule endpoints").is_err());
         assert!(render("--spectral opow --wavelengths 80 --wavelength-pdf light").is_err());
         assert!(render("--spectral opow --wavelength-pdf visible").is_ok());
+        assert!(render("--spectral opaw --wavelengths 80 --wavelength-rule endpoints").is_ok());
+        assert!(render("--spectral opaw --wavelength-pdf light").is_err());
+        assert!(render("--spectral opow --wavelength-rule meyer").is_ok());
+        assert!(render("--spectral opow --wavelength-rule meyer --wavelengths 4").is_ok());
+        assert!(render("--spectral opow --wavelength-rule meyer --wavelengths 5").is_err());
+        assert!(render("--spectral swc --wavelength-rule meyer").is_err());
+    }
+
+    #[test]
+    fn strategies_fit_their_integrators() {
+        let strategy = |args: &str| render(args).expect("valid").light.strategy();
+        assert_eq!(strategy(""), SpectralStrategy::Hero);
+        assert_eq!(strategy("--integrator wang-chern --wavelengths 5"), SpectralStrategy::Opow);
+        assert_eq!(strategy("--integrator wang-chern --spectral swc"), SpectralStrategy::Swc);
+        assert!(render("--integrator wang-chern --spectral hero").is_err());
+        assert!(render("--integrator analog --light-sampling on").is_err());
+        assert!(render("--integrator wang-chern --light-sampling on").is_ok());
+        assert!(render("--spectral swc --wavelengths 5").expect_err("refused").contains("swc"));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-pub use light::{Integrator, LightArgs, SpectralStrategy, WavelengthPdf, WavelengthRule};
+pub use light::{Integrator, LightArgs, SpectralStrategy, Switch, WavelengthPdf, WavelengthRule};
 pub use output::{Names, OutputArgs};
 pub use replay::ReplayArgs;
 pub use run::{CheckpointFile, InstructionSet, RunArgs};

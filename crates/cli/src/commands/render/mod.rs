@@ -34,6 +34,7 @@ pub fn run(args: &RenderArgs, log: &LogArgs, console: &Console) -> Result<(), Fa
     let options = options::options(args)?;
     let plan = plan(scene::source(args.scene.as_deref()), &options)?;
     scene::tell(&plan.loaded.diagnostics.to_vec(), args.reading.strict, log, console)?;
+    plan.notes.iter().for_each(|note| tracing::warn!("{note}"));
     if let Some((pixel, sample)) = args.replay.path() {
         return replay::run(&plan, pixel, sample, log);
     }

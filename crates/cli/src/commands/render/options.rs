@@ -16,6 +16,8 @@ use crate::exit::Failure;
 
 /// Wavelengths on a path of `--spectral hero` unless told otherwise.
 const HERO: u32 = 8;
+/// Wavelengths of the set that a path of `--spectral opaw` carries unless told otherwise.
+const OPAW: u32 = 16;
 
 /// The options.
 ///
@@ -47,14 +49,20 @@ fn light(args: &LightArgs, o: &mut Options) {
     o.clamp = args.firefly_clamp.map(|c| c as f32);
     let rule = match args.wavelength_rule {
         Some(WavelengthRule::Endpoints) => Rule::Endpoints,
-        _ => Rule::Midpoint,
+        Some(WavelengthRule::Meyer) => Rule::Meyer,
+        Some(WavelengthRule::Midpoint) | None => Rule::Midpoint,
     };
-    o.spectral = match args.spectral {
-        SpectralStrategy::Hero => Spectral::Hero { wavelengths: args.wavelengths.unwrap_or(HERO) },
-        SpectralStrategy::Opow => Spectral::Opow { set: args.wavelengths.map(|n| (n, rule)) },
+    let count = args.wavelengths.or((rule == Rule::Meyer).then_some(4));
+    o.spectral = match args.strategy() {
+        SpectralStrategy::Hero => Spectral::Hero { wavelengths: count.unwrap_or(HERO) },
+        SpectralStrategy::Opow => Spectral::Opow { set: count.map(|n| (n, rule)) },
+        SpectralStrategy::Opaw => Spectral::Opaw { set: (count.unwrap_or(OPAW), rule) },
+        SpectralStrategy::Swc => Spectral::Swc { wavelengths: count.unwrap_or(HERO) },
     };
+    o.light_sampling = args.light_sampling.map(|s| s == args::Switch::On);
     o.wavelength_pdf = match args.wavelength_pdf {
-        None | Some(args::WavelengthPdf::Light) => WavelengthPdf::Light,
+        None => WavelengthPdf::Auto,
+        Some(args::WavelengthPdf::Light) => WavelengthPdf::Light,
         Some(args::WavelengthPdf::Visible) => WavelengthPdf::Visible,
         Some(args::WavelengthPdf::Uniform) => WavelengthPdf::Uniform,
     };
