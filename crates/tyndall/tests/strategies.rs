@@ -4,14 +4,14 @@
 mod common;
 
 use common::{
-    Bands, Run,
+    Bands, Dialect, Run,
     judge::{Estimate, Family},
     scene,
 };
 use tyndall::Spectral;
 use tyndall_spectral::strategy::Rule;
 
-const BANDS: Bands = Bands { count: 8 };
+const BANDS: Bands = Bands::new(8);
 /// Optical thickness and albedo of a chromatic slab, band by band.
 const TAU: [f64; 8] = [2.4, 2.0, 1.5, 1.1, 0.8, 0.5, 0.4, 0.3];
 const ALBEDO: [f64; 8] = [0.98, 0.95, 0.9, 0.85, 0.8, 0.6, 0.5, 0.4];
@@ -23,13 +23,13 @@ fn mean(values: &[f64]) -> f64 {
 /// A slab under a uniform sky, over a ground that reflects more and more towards the red.
 fn slab(bands: &Bands, tau: &[f64], albedo: &[f64], mu: f64) -> String {
     let ground: Vec<f64> = (0..bands.count).map(|i| 0.1 + 0.8 * i as f64 / bands.count as f64).collect();
-    let ground = bands.cliff("reflectance", &ground);
     format!(
-        "{}WorldBegin\n{}{}{}Material \"diffuse\"{ground}\n{}",
-        scene::parallel_camera(-mu),
-        scene::SKY,
+        "{}WorldBegin\n{}{}{}{}{}",
+        scene::parallel_camera(bands, -mu),
+        scene::sky(Dialect::Own),
         scene::medium(bands, "m", tau, albedo, ""),
         scene::slab("m", scene::INTERFACE),
+        scene::diffuse(bands, &ground),
         scene::plane(-1.5)
     )
 }
@@ -60,6 +60,7 @@ fn opaw_shows_the_mean_extinction() {
     let mu = 0.8;
     let dark = [0.0; 8];
     let text = scene::transmittance(
+        &BANDS,
         mu,
         &scene::medium(&BANDS, "m", &TAU, &dark, ""),
         &scene::slab("m", scene::INTERFACE),
@@ -82,7 +83,7 @@ fn opaw_shows_the_mean_extinction() {
 #[test]
 fn opaw_is_biased_as_predicted() {
     let mu = 0.7;
-    for bands in [BANDS, Bands { count: 24 }] {
+    for bands in [BANDS, Bands::new(24)] {
         let spread =
             |v: &[f64; 8]| -> Vec<f64> { (0..bands.count).map(|i| v[i * 8 / bands.count]).collect() };
         let (tau, albedo) = (spread(&TAU), spread(&ALBEDO));
@@ -123,7 +124,7 @@ fn opaw_keeps_reflectances_of_mirrors_and_glass() {
     {
         let text = format!(
             "{}WorldBegin\nLightSource \"infinite\" \"bool absolute\" true \"spectrum L\" [300 1 900 3]\n{}",
-            scene::camera([0.0, 0.0, -5.0], [0.0; 3], 0.9),
+            scene::camera(&BANDS, [0.0, 0.0, -5.0], [0.0; 3], 0.9),
             format_args!("{surface}\nShape \"sphere\"\n")
         );
         let truth = run(BANDS, 512, Spectral::Hero { wavelengths: 8 }).seed(2).bands(&text);
@@ -164,8 +165,11 @@ fn unbiased_strategies_agree_in_a_chromatic_slab() {
 fn emission_of_media_counts_in_every_strategy() {
     let le = BANDS.step("Le", &[1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 1.0, 0.5]);
     let medium = scene::medium(&BANDS, "m", &TAU, &ALBEDO, &format!("{le} \"bool absolute\" true"));
-    let text =
-        format!("{}WorldBegin\n{medium}{}", scene::parallel_camera(-0.7), scene::slab("m", scene::INTERFACE));
+    let text = format!(
+        "{}WorldBegin\n{medium}{}",
+        scene::parallel_camera(&BANDS, -0.7),
+        scene::slab("m", scene::INTERFACE)
+    );
     let truth = run(BANDS, 1024, Spectral::Hero { wavelengths: 8 }).seed(2).bands(&text);
     let mut family = Family::default();
     for (name, r) in [("swc", swc(2048, 8)), ("wang-chern", wang_chern(16384))] {
@@ -181,7 +185,7 @@ fn clusters_part_in_dispersive_glass() {
         "{}WorldBegin\nLightSource \"infinite\" \"bool absolute\" true \"spectrum L\" [300 1 900 2]\n\
          Material \"diffuse\" \"spectrum reflectance\" [300 0.2 900 0.9]\n{}\
          Material \"dielectric\" \"spectrum eta\" [400 1.7 528 1.4]\nShape \"sphere\"\n",
-        scene::camera([0.0, 0.0, 5.0], [0.0; 3], 0.9),
+        scene::camera(&BANDS, [0.0, 0.0, 5.0], [0.0; 3], 0.9),
         "Shape \"disk\" \"float height\" -1.5 \"float radius\" 1.2\n"
     );
     let truth = run(BANDS, 2048, Spectral::Hero { wavelengths: 1 }).seed(2).bands(&text);

@@ -1,13 +1,13 @@
 //! Scenes whose luminance is known at every pixel: in closed form, or from a render of many more samples.
 
-use super::common::{Bands, scene};
+use super::common::{Bands, Dialect, scene};
 use super::measure::{Mode, reseed, run};
 use std::f64::consts::PI;
 use std::path::Path;
 use tyndall::{Options, Plan, Source, WavelengthPdf, plan};
 use tyndall_spectral::{LambdaRange, cie};
 
-const BANDS: Bands = Bands { count: 8 };
+const BANDS: Bands = Bands::new(8);
 /// Of the renders that serve as truth.
 const REFERENCE_SEED: u64 = 0x7ea5;
 
@@ -87,7 +87,7 @@ fn slab_in_sunlight(side: u32) -> Case {
          \"point3 to\" [0 0 0]\n",
         -(1.0 - mu0 * mu0).sqrt()
     );
-    let camera = scene::camera([5.0 * (1.0 - mu * mu).sqrt(), 0.0, 5.0 * mu], [0.0; 3], 0.01);
+    let camera = scene::camera(&BANDS, [5.0 * (1.0 - mu * mu).sqrt(), 0.0, 5.0 * mu], [0.0; 3], 0.01);
     let medium = scene::medium(&BANDS, "m", &TAU, &albedo, &scene::asymmetry(&BANDS, &G));
     let text = format!("{camera}WorldBegin\n{sun}{medium}{}", scene::slab("m", scene::INTERFACE));
     Case::closed("slab, single scattering", side, 1, &radiance, text)
@@ -95,9 +95,13 @@ fn slab_in_sunlight(side: u32) -> Case {
 
 /// A ball that scatters and does not absorb, in a sky of radiance 1: a furnace.
 fn conservative_ball(side: u32) -> Case {
-    let camera = scene::camera([0.0, 0.0, 5.0], [0.0; 3], 0.9);
+    let camera = scene::camera(&BANDS, [0.0, 0.0, 5.0], [0.0; 3], 0.9);
     let medium = scene::medium(&BANDS, "m", &TAU, &[1.0; 8], &scene::asymmetry(&BANDS, &G));
-    let text = format!("{camera}WorldBegin\n{}{medium}{}", scene::SKY, scene::ball("m", scene::INTERFACE));
+    let text = format!(
+        "{camera}WorldBegin\n{}{medium}{}",
+        scene::sky(Dialect::Own),
+        scene::ball("m", scene::INTERFACE)
+    );
     Case::closed("furnace, ball", side, u32::MAX, &[1.0; 8], text)
 }
 
@@ -110,10 +114,10 @@ fn box_of_fog(side: u32) -> Case {
     let text = format!(
         "{fog}MediumInterface \"\" \"m\"\n{camera}{}WorldBegin\nMediumInterface \"m\" \"\"\nMaterial \"diffuse\"{}{}\n\
          AreaLightSource \"diffuse\" \"bool absolute\" true \"bool twosided\" true{}{}\n{}",
-        scene::film(),
-        scene::STEP,
+        scene::film(&BANDS),
+        BANDS.interpolation(),
         BANDS.step("reflectance", &rho),
-        scene::STEP,
+        BANDS.interpolation(),
         BANDS.step("L", &le),
         scene::cuboid([-1.0; 3], [1.0; 3])
     );
@@ -126,7 +130,11 @@ fn sky_through_absorber(side: u32) -> Case {
     let radiance: Vec<f64> = TAU.iter().map(|t| (-t / mu).exp()).collect();
     let medium = scene::medium(&BANDS, "m", &TAU, &[0.0; 8], "");
     let slab = scene::slab("m", scene::INTERFACE);
-    let text = format!("{}WorldBegin\n{}{medium}{slab}", scene::parallel_camera(-mu), scene::SKY);
+    let text = format!(
+        "{}WorldBegin\n{}{medium}{slab}",
+        scene::parallel_camera(&BANDS, -mu),
+        scene::sky(Dialect::Own)
+    );
     Case::closed("absorbing slab", side, u32::MAX, &radiance, text)
 }
 

@@ -13,7 +13,7 @@ fn lit(medium: &str, cube: &str) -> String {
     let lamp = format!(
         "AttributeBegin\nAreaLightSource \"diffuse\" \"bool absolute\" true \"bool twosided\" true{}{}\n{}\
          Translate 0.2 0.3 1.6\nShape \"disk\" \"float radius\" 0.5\nAttributeEnd\n",
-        scene::STEP,
+        BANDS.interpolation(),
         BANDS.step("L", &LAMP),
         scene::BLACK,
     );

@@ -8,7 +8,7 @@ use super::media::{self, BANDS, EXTINCTION};
 fn chromatic_furnace() {
     let mut family = Family::default();
     for (name, medium) in media::conservative() {
-        let text = format!("{}WorldBegin\n{}{medium}{}", media::camera(), scene::SKY, media::cube());
+        let text = format!("{}WorldBegin\n{}{medium}{}", media::camera(), media::sky(), media::cube());
         family.bands(&format!("{name}, hero"), &Run::new(BANDS, 512).bands(&text), &[1.0; 8]);
         family.bands(&format!("{name}, opow"), &Run::new(BANDS, 256).opow().bands(&text), &[1.0; 8]);
         family.bands(&format!("{name}, analog"), &Run::new(BANDS, 256).analog().bands(&text), &[1.0; 8]);
@@ -34,8 +34,8 @@ fn beer_lambert_through_a_column() {
             media::spectra(&[0.0; 8], 1.0)
         );
         let medium = media::medium("uniformgrid", &parameters);
-        let camera = scene::camera([0.5, 0.5, 5.0], [0.5; 3], 1e-4);
-        let text = format!("{camera}WorldBegin\n{}{medium}{}", scene::SKY, media::cube());
+        let camera = scene::camera(&BANDS, [0.5, 0.5, 5.0], [0.5; 3], 1e-4);
+        let text = format!("{camera}WorldBegin\n{}{medium}{}", media::sky(), media::cube());
         let runs = [
             ("hero", Run::new(BANDS, 2048)),
             ("hero 4", Run::new(BANDS, 2048).hero(4)),
@@ -62,7 +62,7 @@ fn beer_lambert_on_shadow_rays() {
         format!(" \"integer nz\" 4{density}{} \"string edge\" \"clamp\"", media::spectra(&[0.0; 8], 1.0));
     let medium = media::medium("uniformgrid", &parameters);
     let white = "Material \"diffuse\" \"spectrum reflectance\" [300 1 900 1]\n";
-    let camera = scene::camera([0.5, 0.5, -0.2], [0.5, 0.5, -0.5], 1e-4);
+    let camera = scene::camera(&BANDS, [0.5, 0.5, -0.2], [0.5, 0.5, -0.5], 1e-4);
     let text = format!("{camera}WorldBegin\n{sun}{medium}{}{white}{}", media::cube(), scene::plane(-0.5));
     let mut family = Family::default();
     for (name, set) in
@@ -87,9 +87,9 @@ fn isothermal_enclosure() {
     let text = format!(
         "{medium}MediumInterface \"\" \"m\"\n{camera}{}WorldBegin\nMediumInterface \"m\" \"\"\n{}\
          AreaLightSource \"diffuse\" \"bool absolute\" true \"bool twosided\" true{}{}\n{}",
-        scene::film(),
+        scene::film(&BANDS),
         scene::BLACK,
-        scene::STEP,
+        BANDS.interpolation(),
         BANDS.step("L", &le),
         scene::cuboid([0.0; 3], [1.0; 3])
     );
@@ -108,7 +108,7 @@ fn grid_of_temperatures() {
          \"float temperaturescale\" 2 \"float Lescale\" 0.5 \"bool absolute\" true \"string edge\" \"clamp\"{}",
         media::spectra(&[0.0; 8], 1.0)
     );
-    let camera = scene::camera([0.5, 0.5, 5.0], [0.5; 3], 1e-4);
+    let camera = scene::camera(&BANDS, [0.5, 0.5, 5.0], [0.5; 3], 1e-4);
     let text = format!("{camera}WorldBegin\n{}{}", media::medium("uniformgrid", &parameters), media::cube());
     let edges = BANDS.edges();
     let planck = |i: usize| {
@@ -125,6 +125,7 @@ fn grid_of_temperatures() {
 /// The scene with a parameter `NAME=VALUE` of the integrator.
 pub fn with_integrator(text: &str, set: &str) -> String {
     let Some((name, value)) = set.split_once('=') else { return text.into() };
-    let more = format!("\"integer maxdepth\" -1 \"bool {name}\" {value}");
-    text.replace("\"integer maxdepth\" -1", &more)
+    let bare = "Integrator \"volpath\"";
+    assert!(text.contains(bare), "an integrator to switch");
+    text.replace(bare, &format!("{bare} \"bool {name}\" {value}"))
 }

@@ -1,8 +1,8 @@
 //! The media under test, all named "m" and filling the unit cube.
 
-use super::common::{Bands, scene};
+use super::common::{Bands, Dialect, scene};
 
-pub const BANDS: Bands = Bands { count: 8 };
+pub const BANDS: Bands = Bands::new(8);
 pub const EXTINCTION: [f64; 8] = [4.0, 0.6, 2.5, 1.2, 3.3, 0.9, 1.8, 6.0];
 pub const ALBEDO: [f64; 8] = [0.9, 0.4, 0.7, 0.95, 0.5, 0.8, 0.3, 0.6];
 const G: [f64; 8] = [0.7, -0.4, 0.0, 0.5, -0.3, 0.85, 0.2, -0.6];
@@ -11,6 +11,11 @@ const G: [f64; 8] = [0.7, -0.4, 0.0, 0.5, -0.3, 0.85, 0.2, -0.6];
 pub fn densities(n: usize) -> Vec<f64> {
     let at = |i: usize| ((i * 2_654_435_761) >> 7) % 1000;
     (0..n).map(|i| if at(i) < 250 { 0.0 } else { 0.002 * at(i) as f64 }).collect()
+}
+
+/// Radiance 1 from everywhere.
+pub fn sky() -> String {
+    scene::sky(Dialect::Own)
 }
 
 pub fn numbers(name: &str, values: &[f64]) -> String {
@@ -24,7 +29,7 @@ pub fn spectra(albedo: &[f64; 8], scale: f64) -> String {
         EXTINCTION.iter().zip(albedo).map(|(t, w)| scale * t * f(*w)).collect()
     };
     let (a, s) = (BANDS.step("sigma_a", &part(&|w| 1.0 - w)), BANDS.step("sigma_s", &part(&|w| w)));
-    format!("{}{a}{s}", scene::STEP)
+    format!("{}{a}{s}", BANDS.interpolation())
 }
 
 pub fn phase() -> String {
@@ -59,7 +64,7 @@ pub fn spectral(albedo: &[f64; 8], more: &str) -> String {
     let sigma_s: Vec<f64> = (0..192).map(|i| pick(i, &|w| w)).collect();
     let lists =
         [numbers("bands", &edges), numbers("sigma_a", &sigma_a), numbers("sigma_s", &sigma_s)].concat();
-    medium("spectralgrid", &format!("{dims}{lists}{}{}{more}", scene::STEP, phase()))
+    medium("spectralgrid", &format!("{dims}{lists}{}{}{more}", BANDS.interpolation(), phase()))
 }
 
 /// Grey albedo: colours of a grid have no bands.
@@ -72,7 +77,7 @@ pub fn rgb(albedo: f64, more: &str) -> String {
     let scattering = format!(" \"rgb sigma_s\" [{}]", colours(1.5 * albedo));
     // an absent coefficient is one in pbrt
     let absorption = format!(" \"rgb sigma_a\" [{}]", colours(1.5 * (1.0 - albedo)));
-    medium("rgbgrid", &format!("{dims}{scattering}{absorption}{}{}{more}", scene::STEP, phase()))
+    medium("rgbgrid", &format!("{dims}{scattering}{absorption}{}{}{more}", BANDS.interpolation(), phase()))
 }
 
 /// All of them with scattering and absorption.
@@ -105,7 +110,7 @@ pub fn cube() -> String {
 
 /// The whole cube seen askew.
 pub fn camera() -> String {
-    scene::camera([3.0, 2.5, 4.0], [0.5; 3], 0.55)
+    scene::camera(&BANDS, [3.0, 2.5, 4.0], [0.5; 3], 0.55)
 }
 
 /// Smoke and mist with spectra, densities and phase functions of their own, as one medium.

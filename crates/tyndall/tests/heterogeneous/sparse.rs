@@ -3,7 +3,7 @@
 #[path = "../../../files/tests/volume/writer.rs"]
 mod writer;
 
-use super::common::{Run, judge::Family, scene};
+use super::common::{Run, judge::Family};
 use super::media::{self, ALBEDO, BANDS};
 use writer::Spec;
 
@@ -41,7 +41,7 @@ fn nanovdb_is_the_uniform_grid() {
         media::medium("uniformgrid", &format!("{dims}{}{spectra}", media::numbers("density", &density)));
     let text = |medium: &str| {
         let camera = media::camera();
-        format!("{camera}WorldBegin\n{}{medium}{}", scene::SKY, media::cube())
+        format!("{camera}WorldBegin\n{}{medium}{}", media::sky(), media::cube())
     };
     let expected = Run::new(BANDS, 1024).bands(&text(&uniform));
     let mut family = Family::default();

@@ -1,6 +1,6 @@
 //! Phase functions from files: a table of Henyey-Greenstein is Henyey-Greenstein.
 
-use super::common::{Run, judge::Family, scene};
+use super::common::{Run, judge::Family};
 use super::media::{self, ALBEDO, BANDS};
 
 /// Henyey-Greenstein at 300 and 900 nm, normalised to 4 pi, dense where it is steep.
@@ -37,7 +37,7 @@ fn a_table_of_henyey_greenstein() {
     // two wavelengths, in a furnace
     std::fs::write(&path, table([0.9, -0.5])).unwrap();
     let medium = media::medium("homogeneous", &format!("{}{named}", media::spectra(&[1.0; 8], 1.0)));
-    let furnace = format!("{}WorldBegin\n{}{medium}{}", media::camera(), scene::SKY, media::cube());
+    let furnace = format!("{}WorldBegin\n{}{medium}{}", media::camera(), media::sky(), media::cube());
     family.bands("furnace", &Run::new(BANDS, 512).bands(&furnace), &[1.0; 8]);
     family.assert(0.05);
 }

@@ -121,7 +121,7 @@ fn reciprocal_and_two_sided() {
     let (a, b) = (vec3(0.6, 0.2, 0.7).normalize(), vec3(-0.2, 0.5, 0.5).normalize());
     let models = models();
     for (name, model) in &models {
-        let mut difference = vec![Welford::default(); 4];
+        let mut difference = [Welford::default(); 4];
         for seed in 0..15_000 {
             let m = Coated { seed, ..*model };
             let (there, back) = (m.eval(a, b), m.eval(b, a));
