@@ -43,7 +43,7 @@ pub enum Material {
     Hair(Box<HairMaterial>),
     /// A material with a normal map or a bump map.
     Mapped(Box<MappedMaterial>),
-    /// One of two materials, chosen at random; [`crate::Scene::material`] chooses, so that no path gets here.
+    /// One of two materials, chosen at random; the scene chooses at the hit, so that no path gets here.
     Mix(Box<MixMaterial>),
 }
 
