@@ -283,7 +283,7 @@ fn connect<const N: usize>(
     // densities of the three techniques, lane by lane
     let flight = inside.collision_density(t, settings);
     let by_light = scene.lights.pmf_at(x, Vec3::ZERO, id) * light.pdf_li(&scene.accel, x, wi, &y.target);
-    let glow = Glow::in_medium(at.lamp, x, inside);
+    let glow = Glow::in_medium(at.lamp, x, inside, w);
     let by_chance = if light.is_hidden() { Spectrum::ZERO } else { mixed(glow.as_ref(), phase, wi) * s.r_u };
     let r = weight.r_u * (s.r_l * technique + flight * (s.r_l * by_light + by_chance));
     Some(divide(weight.beta * f * s.t * l, r))

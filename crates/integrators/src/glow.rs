@@ -16,7 +16,7 @@ use crate::{medium::Inside, settings::Settings};
 use tyndall_base::{Vec3, warp};
 use tyndall_geometry::Frame;
 use tyndall_scatter::{bsdf::BsdfFlags, phase::PhaseFunction};
-use tyndall_spectral::Spectrum;
+use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{Scene, sampler::PathSampler};
 
 /// Share of the glow where it is clearest: near a lamp, with isotropic scattering. Flat between 0.3 and 0.7.
@@ -52,8 +52,13 @@ impl Glow {
     /// From the point `p` of a medium. A function of the point and of all lanes alike, so that every technique and
     /// every hero agrees on it.
     #[inline(always)]
-    pub fn in_medium<const N: usize>(lamp: Option<Vec3>, p: Vec3, inside: &Inside<'_, N>) -> Option<Self> {
-        Self::new(lamp?, p, inside, share(inside.phase))
+    pub fn in_medium<const N: usize>(
+        lamp: Option<Vec3>,
+        p: Vec3,
+        inside: &Inside<'_, N>,
+        w: &Wavelengths<N>,
+    ) -> Option<Self> {
+        Self::new(lamp?, p, inside, share(inside.phase, w))
     }
 
     /// From a point `p` of a surface in a medium, whose normal on the side of the path is `n`: for diffuse reflection
@@ -108,19 +113,13 @@ impl Glow {
 
 /// Share for a phase function: the narrower it is, the more it has to say itself.
 #[inline(always)]
-fn share(phase: &PhaseFunction) -> f32 {
+fn share<const N: usize>(phase: &PhaseFunction, w: &Wavelengths<N>) -> f32 {
     match phase {
         PhaseFunction::Isotropic | PhaseFunction::Rayleigh(_) => SHARE,
-        PhaseFunction::HenyeyGreenstein(p) => {
-            let forward = p.mean_cosine(MIDDLE).abs();
-            SHARE * (1.0 - forward)
-        }
+        PhaseFunction::HenyeyGreenstein(p) => SHARE * (1.0 - p.g().sample(w).map(f32::abs).mean()),
         _ => PEAKED,
     }
 }
-
-/// Wavelength at which a phase function is judged \[nm\].
-const MIDDLE: f32 = 550.0;
 
 /// Density of `wi` where a glow may compete with a scattering of density `pdf`.
 #[inline(always)]

@@ -264,7 +264,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.scattered_widely = true;
 
         let wo = -self.ray.d;
-        let glow = Glow::in_medium(self.lamp, p, inside);
+        let glow = Glow::in_medium(self.lamp, p, inside, self.w);
         if self.settings.light_sampling {
             let medium = self.medium;
             let vertex = Scatterer {

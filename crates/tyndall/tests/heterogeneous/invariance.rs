@@ -31,7 +31,7 @@ fn analog_judges_volpath() {
         for (lanes, run) in [("8", Run::new(BANDS, 512)), ("4", Run::new(BANDS, 512).hero(4))] {
             family.equal(&format!("{name}, {lanes}"), &run.bands(&text), &judge);
         }
-        family.equal(&format!("{name}, opow"), &Run::new(BANDS, 512).opow().bands(&text), &judge);
+        family.equal(&format!("{name}, opow"), &Run::new(BANDS, 1024).opow().bands(&text), &judge);
     }
     family.assert(0.05);
 }
