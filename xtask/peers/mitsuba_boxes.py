@@ -1,6 +1,7 @@
-"""Mitsuba 3 on the fog box and the empty box of crates/tyndall/scenes/bench: prints one JSON line per measurement.
+"""Mitsuba 3 on boxes of crates/tyndall/scenes/bench (fog, none, a beam, a bright cloud): prints one JSON line per
+measurement.
 
-usage: mitsuba_boxes.py VARIANT MASK_DIR [--resolution 128] [--spp 4 16 64] [--seeds 8]
+usage: mitsuba_boxes.py VARIANT MASK_DIR [--resolution 128] [--spp 4 16 64] [--seeds 8] [--scenes NAME...]
 
 E = 1 / (MSE_Y x user CPU s), MSE_Y from the variance over seeds, without the pixels of mask-SCENE.pbm (headline) and
 over the whole frame. One thread; the first picture, which compiles the kernels, is not counted.
@@ -22,6 +23,8 @@ ARGUMENTS.add_argument("masks", type=pathlib.Path)
 ARGUMENTS.add_argument("--resolution", type=int, default=128)
 ARGUMENTS.add_argument("--spp", type=int, nargs="+", default=[4, 16, 64])
 ARGUMENTS.add_argument("--seeds", type=int, default=8)
+SCENES = ["fog-box", "empty-box", "beam", "cloud-box"]
+ARGUMENTS.add_argument("--scenes", nargs="+", choices=SCENES, default=SCENES)
 A = ARGUMENTS.parse_args()
 mi.set_variant(A.variant)
 mi.set_log_level(mi.LogLevel.Error)
@@ -33,8 +36,15 @@ T = mi.ScalarTransform4f
 WHITE = [(360, 0.7), (400, 0.72), (500, 0.74), (830, 0.74)]
 GREEN = [(360, 0.09), (460, 0.1), (500, 0.32), (530, 0.47), (560, 0.38), (600, 0.16), (640, 0.11), (830, 0.14)]
 RED = [(360, 0.05), (560, 0.05), (600, 0.35), (640, 0.62), (830, 0.66)]
-SIGMA_S = [(360, 1), (450, 1), (500, 0.9), (550, 0.7), (600, 0.35), (650, 0.2), (700, 0.15), (780, 0.1), (830, 0.1)]
-SIGMA_A = [(360, 0.02), (400, 0.02), (550, 0.03), (600, 0.25), (650, 0.5), (700, 0.6), (780, 0.7), (830, 0.7)]
+# sigma_s and sigma_a
+MEDIA = {
+    "fog-box": (
+        [(360, 1), (450, 1), (500, 0.9), (550, 0.7), (600, 0.35), (650, 0.2), (700, 0.15), (780, 0.1), (830, 0.1)],
+        [(360, 0.02), (400, 0.02), (550, 0.03), (600, 0.25), (650, 0.5), (700, 0.6), (780, 0.7), (830, 0.7)],
+    ),
+    "beam": ([(360, 0.12), (550, 0.1), (830, 0.05)], [(360, 0.005), (830, 0.02)]),
+    "cloud-box": ([(360, 5), (830, 3.5)], [(360, 0.005), (500, 0.02), (830, 0.1)]),
+}
 
 
 def planck(wavelength_nm, temperature=6500.0):
@@ -64,11 +74,25 @@ def box(bsdf, to_world):
     return {"type": "cube", "to_world": to_world, "bsdf": {"type": "ref", "id": bsdf}}
 
 
-def scene(fog, sampler, spp):
-    lamp = table([15 * planck(x) / planck(560.0) for x in GRID])
+def thermal(value):
+    return table([value * planck(x) / planck(560.0) for x in GRID])
+
+
+def light(name):
+    """A lamp, or the beam: pbrt's scale over the mean of a black body under y-bar, 1.0048 of its value at 560 nm."""
+    if name != "beam":
+        place = T().translate([0, 0.97, 0.01]).rotate([1, 0, 0], 90).scale([0.23, 0.19, 0.19])
+        return {**wall("white", place), "emitter": {"type": "area", "radiance": thermal(15)}}
+    return {
+        "type": "spot", "intensity": thermal(60 * 15 / 14.9283176), "cutoff_angle": 8.0, "beam_width": 6.0,
+        "to_world": T().look_at(origin=[-0.9, 0.9, 0.3], target=[0.6, -1, -0.2], up=[0, 1, 0]),
+    }
+
+
+def scene(name, sampler, spp):
     s = {
         "type": "scene",
-        "integrator": {"type": "volpath" if fog else "path", "max_depth": 65},
+        "integrator": {"type": "volpath" if name in MEDIA else "path", "max_depth": 65},
         "sensor": {
             "type": "perspective", "fov": 39.3077, "near_clip": 0.001, "far_clip": 100.0,
             "to_world": T().look_at(origin=[0, 0, 3.9], target=[0, 0, 0], up=[0, 1, 0]),
@@ -88,13 +112,10 @@ def scene(fog, sampler, spp):
         "left": wall("red", T().translate([-1, 0, 0]).rotate([0, 1, 0], 90)),
         "small": box("white", T().translate([0.335, -0.7, 0.38]).rotate([0, 1, 0], -17).scale(0.3)),
         "large": box("white", T().translate([-0.33, -0.4, -0.28]).rotate([0, 1, 0], 18.25).scale([0.3, 0.61, 0.3])),
-        "lamp": {
-            **wall("white", T().translate([0, 0.97, 0.01]).rotate([1, 0, 0], 90).scale([0.23, 0.19, 0.19])),
-            "emitter": {"type": "area", "radiance": lamp},
-        },
+        "lamp": light(name),
     }
-    if fog:
-        sigma_s, sigma_a = (np.interp(GRID, *zip(*knots)) for knots in (SIGMA_S, SIGMA_A))
+    if name in MEDIA:
+        sigma_s, sigma_a = (np.interp(GRID, *zip(*knots)) for knots in MEDIA[name])
         medium = {
             "type": "homogeneous", "sigma_t": table(sigma_s + sigma_a), "albedo": table(sigma_s / (sigma_s + sigma_a)),
             "phase": {"type": "isotropic"},
@@ -110,7 +131,7 @@ def hidden(name):
 
 
 def measure(name, sampler, spp):
-    loaded = scene(name == "fog-box", sampler, spp)
+    loaded = scene(name, sampler, spp)
     np.array(mi.render(loaded, spp=spp, seed=10_000))
     pictures, seconds = [], []
     for seed in range(A.seeds):
@@ -125,7 +146,7 @@ def measure(name, sampler, spp):
     }), flush=True)
 
 
-for scene_name in ("fog-box", "empty-box"):
+for scene_name in A.scenes:
     for sampler_name in ("independent", "multijitter"):
         for samples in A.spp:
             measure(scene_name, sampler_name, samples)

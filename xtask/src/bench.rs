@@ -8,18 +8,55 @@ use std::{
 
 use crate::workspace;
 
-const USAGE: &str = "cargo xtask bench [--quick] [--inner] [--peers]";
+const USAGE: &str = "cargo xtask bench [--quick] [--inner] [--peers] [--defaults] [--scene NAME]...";
+
+/// Scenes that the peers' script has, too.
+const SHARED: [&str; 4] = ["fog-box", "empty-box", "beam", "cloud-box"];
+
+/// What the command line asks for.
+#[derive(Debug, Default)]
+struct Wanted {
+    quick: bool,
+    inner: bool,
+    peers: bool,
+    defaults: bool,
+    scenes: Vec<String>,
+}
+
+impl Wanted {
+    fn parse(arguments: &[String]) -> Result<Self, String> {
+        let mut wanted = Self::default();
+        let mut rest = arguments.iter();
+        while let Some(argument) = rest.next() {
+            match argument.as_str() {
+                "--quick" => wanted.quick = true,
+                "--inner" => wanted.inner = true,
+                "--peers" => wanted.peers = true,
+                "--defaults" => wanted.defaults = true,
+                "--scene" => wanted.scenes.push(rest.next().ok_or("--scene needs a name")?.clone()),
+                stranger => return Err(format!("no option `{stranger}`\nhint: {USAGE}")),
+            }
+        }
+        Ok(wanted)
+    }
+
+    /// The scenes to run the peers on.
+    fn shared(&self) -> Vec<&'static str> {
+        let wanted = |name: &&str| self.scenes.is_empty() || self.scenes.iter().any(|s| s == name);
+        SHARED.into_iter().filter(wanted).collect()
+    }
+}
 
 /// Runs the benchmark; reports lie in `target/bench`.
 pub fn bench(arguments: &[String]) -> ExitCode {
-    if let Some(stranger) =
-        arguments.iter().find(|a| !matches!(a.as_str(), "--quick" | "--inner" | "--peers"))
-    {
-        eprintln!("error: no option `{stranger}`\nhint: {USAGE}");
-        return ExitCode::from(2);
-    }
-    let has = |option: &str| arguments.iter().any(|a| a == option);
-    let result = if has("--inner") { inner() } else { whole(has("--quick"), has("--peers")) };
+    let wanted = match Wanted::parse(arguments) {
+        Ok(wanted) => wanted,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return ExitCode::from(2);
+        }
+    };
+    let result = if wanted.inner { inner() } else { whole(&wanted) };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -39,15 +76,18 @@ fn inner() -> Result<(), String> {
 }
 
 /// Whole pictures, ours and, where they are installed, other renderers'.
-fn whole(quick: bool, install: bool) -> Result<(), String> {
+fn whole(wanted: &Wanted) -> Result<(), String> {
     let out = workspace::root().join("target/bench");
     let mut arguments = vec![out.to_string_lossy().into_owned()];
-    arguments.extend(quick.then(|| "quick".into()));
+    arguments.extend(wanted.quick.then(|| "quick".into()));
+    arguments.extend(wanted.defaults.then(|| "defaults".into()));
+    arguments.extend(wanted.scenes.iter().cloned());
     example_of("tyndall", "bench", &arguments)?;
-    if quick {
+    let shared = wanted.shared();
+    if wanted.quick || shared.is_empty() {
         return Ok(());
     }
-    let rows = mitsuba(&out, install)?;
+    let rows = mitsuba(&out, wanted.peers, &shared)?;
     if rows.is_empty() {
         return Ok(());
     }
@@ -75,7 +115,7 @@ fn run(command: &mut Command) -> Result<(), String> {
 }
 
 /// Mitsuba's measurements; none when it is not installed and not to be installed.
-fn mitsuba(out: &Path, install: bool) -> Result<Vec<Value>, String> {
+fn mitsuba(out: &Path, install: bool, scenes: &[&str]) -> Result<Vec<Value>, String> {
     let venv = workspace::root().join("target/peers");
     let python = venv.join("bin/python");
     if install && !has_mitsuba(&python) {
@@ -96,7 +136,10 @@ fn mitsuba(out: &Path, install: bool) -> Result<Vec<Value>, String> {
         println!("Mitsuba 3, {variant}");
         let mut command = Command::new(&python);
         command.arg(workspace::root().join("xtask/peers/mitsuba_boxes.py")).arg(variant).arg(out);
+        command.arg("--scenes").args(scenes);
         command.envs(llvm.iter().map(|path| ("DRJIT_LIBLLVM_PATH", path)));
+        // one number of samples shows that the scalar variant is the slower one
+        command.args(variant.starts_with("scalar").then_some(["--spp", "16"]).iter().flatten());
         let lines = workspace::output(&mut command)?;
         for line in lines.lines().filter(|line| line.starts_with('{')) {
             rows.push(serde_json::from_str(line).map_err(|e| format!("Mitsuba's results: {e}"))?);

@@ -14,7 +14,8 @@ cargo xtask TASK
 
   test [STEP]...   everything that decides whether the project is sound, or only the named steps
   bench            efficiency of the defaults and of every technique, in target/bench; --quick, --inner for inner
-                   loops, --peers installs Mitsuba 3 into target/peers and sets it beside ours
+                   loops, --peers installs Mitsuba 3 into target/peers and sets it beside ours, --scene NAME for one
+                   scene (may be repeated), --defaults leaves the techniques out
   layers           which crate may use which, and the size of source files
   hygiene          no machine paths, no unfinished-work markers, no large files in the repository
   help             this text

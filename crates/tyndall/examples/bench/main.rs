@@ -1,7 +1,8 @@
 //! What the techniques buy: efficiency of the defaults and of every switch on small scenes, in one process, on one thread.
 //!
-//! `cargo run --release -p tyndall --example bench -- OUT_DIR [quick]` writes `ours.json`, `bench.md` and one mask per
-//! scene; `cargo xtask bench` calls it and sets other renderers beside it.
+//! `cargo run --release -p tyndall --example bench -- OUT_DIR [quick] [defaults] [SCENE]...` writes `ours.json`,
+//! `bench.md` and one mask per scene; `defaults` leaves the techniques out, names of scenes all other scenes.
+//! `cargo xtask bench` calls it and sets other renderers beside it.
 //!
 //! Efficiency is `E = 1 / (MSE_Y x CPU seconds)`, with MSE_Y the variance of pixel luminances over seeds. The headline
 //! leaves out the pixels that see a lamp, and their neighbours: the lamp's rim holds half of the error of a picture
@@ -33,17 +34,40 @@ const QUICK: Size = Size { seeds: 3, resolution: 32, technique_resolution: 16, s
 /// Samples per pixel of the techniques' table.
 const TECHNIQUE_SPP: u32 = 16;
 
+/// What to measure.
+struct Wanted {
+    out: PathBuf,
+    size: &'static Size,
+    techniques: bool,
+    scenes: Vec<&'static BenchScene>,
+}
+
+impl Wanted {
+    fn parse(arguments: &[String]) -> Option<Self> {
+        let (out, rest) = arguments.split_first()?;
+        let mut wanted = Self { out: PathBuf::from(out), size: &FULL, techniques: true, scenes: Vec::new() };
+        for word in rest {
+            match word.as_str() {
+                "quick" => wanted.size = &QUICK,
+                "defaults" => wanted.techniques = false,
+                name => wanted.scenes.push(SCENES.iter().find(|s| s.name == name)?),
+            }
+        }
+        if wanted.scenes.is_empty() {
+            wanted.scenes = SCENES.iter().collect();
+        }
+        Some(wanted)
+    }
+}
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let (out, size) = match &arguments[..] {
-        [out] => (PathBuf::from(out), FULL),
-        [out, word] if word == "quick" => (PathBuf::from(out), QUICK),
-        _ => {
-            eprintln!("usage: bench OUT_DIR [quick]");
-            return ExitCode::from(2);
-        }
+    let Some(wanted) = Wanted::parse(&arguments) else {
+        let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
+        eprintln!("usage: bench OUT_DIR [quick] [defaults] [SCENE]...\nscenes: {}", names.join(", "));
+        return ExitCode::from(2);
     };
-    match run(&out, &size) {
+    match run(&wanted) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
@@ -52,17 +76,19 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(out: &std::path::Path, size: &Size) -> Result<(), String> {
+fn run(wanted: &Wanted) -> Result<(), String> {
+    let Wanted { out, size, scenes, .. } = wanted;
     std::fs::create_dir_all(out).map_err(|e| format!("{}: {e}", out.display()))?;
-    let defaults = SCENES.iter().map(|s| defaults(s, size)).collect::<Result<Vec<_>, _>>()?;
-    let techniques = SCENES.iter().map(|s| techniques(s, size)).collect::<Result<Vec<_>, _>>()?;
-    let peers = pbrt::measure(out, size.seeds, size.resolution)?;
-    for scene in SCENES {
+    let defaults = scenes.iter().map(|s| defaults(s, size)).collect::<Result<Vec<_>, _>>()?;
+    let measured = if wanted.techniques { &scenes[..] } else { &[] };
+    let techniques = measured.iter().map(|s| techniques(s, size)).collect::<Result<Vec<_>, _>>()?;
+    let peers = pbrt::measure(out, scenes, size.seeds, size.resolution)?;
+    for scene in scenes {
         let mask = mask::lamp(scene, size.resolution)?;
         let path = out.join(format!("mask-{}.pbm", scene.name));
         std::fs::write(&path, mask.to_pbm()).map_err(|e| format!("{}: {e}", path.display()))?;
     }
-    let report = tables::Report { size, defaults, techniques, peers };
+    let report = tables::Report { size, scenes, defaults, techniques, peers };
     std::fs::write(out.join("ours.json"), report.json()).map_err(|e| format!("ours.json: {e}"))?;
     let text = report.markdown();
     std::fs::write(out.join("bench.md"), &text).map_err(|e| format!("bench.md: {e}"))?;

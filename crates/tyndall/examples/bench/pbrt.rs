@@ -3,7 +3,7 @@
 use crate::{
     mask,
     measure::{Efficiency, Measurement},
-    scenes::{BenchScene, SCENES},
+    scenes::BenchScene,
 };
 use std::{path::Path, process::Command};
 use tyndall::files::image::{Pixels, read_exr};
@@ -17,12 +17,17 @@ const ON: [&str; 2] = ["fog-box", "empty-box"];
 pub type Peer = (&'static str, &'static str, Efficiency);
 
 /// Runs pbrt, or says that it is not there.
-pub fn measure(out: &Path, seeds: u32, resolution: u32) -> Result<Vec<Peer>, String> {
+pub fn measure(
+    out: &Path,
+    scenes: &[&'static BenchScene],
+    seeds: u32,
+    resolution: u32,
+) -> Result<Vec<Peer>, String> {
     if Command::new("pbrt").arg("--help").output().is_err() {
         eprintln!("pbrt: not on the PATH, left out");
         return Ok(Vec::new());
     }
-    let scenes = SCENES.iter().filter(|s| ON.contains(&s.name));
+    let scenes = scenes.iter().filter(|s| ON.contains(&s.name));
     scenes.map(|s| Ok(("pbrt-v4", s.name, on(s, out, seeds, resolution)?))).collect()
 }
 

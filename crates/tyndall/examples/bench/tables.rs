@@ -4,18 +4,19 @@ use crate::{
     Size, TECHNIQUE_SPP,
     measure::Efficiency,
     pbrt::Peer,
-    scenes::SCENES,
+    scenes::BenchScene,
     variants::{DEFAULTS, TECHNIQUES, Variant},
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// All that was measured; per scene, in the order of [`SCENES`].
+/// All that was measured; per scene, in the order of `scenes`.
 pub struct Report<'a> {
     pub size: &'a Size,
+    pub scenes: &'a [&'static BenchScene],
     /// Samples per pixel and efficiency of the defaults.
     pub defaults: Vec<Vec<(u32, Efficiency)>>,
-    /// Efficiency of the defaults, then of each technique's variant where the scene allows it.
+    /// Efficiency of the defaults, then of each technique's variant where the scene allows it; empty when left out.
     pub techniques: Vec<Vec<Option<Efficiency>>>,
     pub peers: Vec<Peer>,
 }
@@ -27,7 +28,9 @@ impl Report<'_> {
         s += "E = 1 / (MSE_Y x CPU s) on one thread; headline: without the pixels that see a lamp and their neighbours; ";
         s += "+- is the standard error over seeds.\n\n";
         self.defaults_table(&mut s);
-        self.techniques_table(&mut s);
+        if !self.techniques.is_empty() {
+            self.techniques_table(&mut s);
+        }
         if !self.peers.is_empty() {
             s += "\n## pbrt-v4, 16 samples per pixel\n\n| scene | samples/s | E headline | E whole frame | mean Y |\n|---|---|---|---|---|\n";
             for (name, scene, e) in &self.peers {
@@ -42,7 +45,7 @@ impl Report<'_> {
         *s += &format!("## What ships, {r} x {r} pixels, {seeds} seeds\n\n");
         *s +=
             "| scene | spp | samples/s | E headline | E whole frame | mean Y |\n|---|---|---|---|---|---|\n";
-        for (scene, rows) in SCENES.iter().zip(&self.defaults) {
+        for (scene, rows) in self.scenes.iter().zip(&self.defaults) {
             for (spp, e) in rows {
                 *s += &format!("| {} ({}) | {spp} {}\n", scene.name, scene.about, cells(e));
             }
@@ -57,11 +60,11 @@ impl Report<'_> {
         );
         *s += "E of the defaults over E with one technique changed: above 1 the default wins. Headline, in brackets the\n";
         *s += "whole frame; bold: the scene on which the default is there to win.\n\n| changed |";
-        SCENES.iter().for_each(|scene| *s += &format!(" {} |", scene.name));
-        *s += &format!("\n|---|{}\n", "---|".repeat(SCENES.len()));
+        self.scenes.iter().for_each(|scene| *s += &format!(" {} |", scene.name));
+        *s += &format!("\n|---|{}\n", "---|".repeat(self.scenes.len()));
         for (i, variant) in TECHNIQUES.iter().enumerate() {
             *s += &format!("| {} |", variant.name);
-            for (scene, measured) in SCENES.iter().zip(&self.techniques) {
+            for (scene, measured) in self.scenes.iter().zip(&self.techniques) {
                 *s += &ratio(&measured[0], &measured[i + 1], scene.name == variant.wins_on);
             }
             *s += "\n";
@@ -81,11 +84,12 @@ impl Report<'_> {
                 .map(|(v, e)| json!({ "changed": v.name, "measured": e.as_ref().map(number) }))
                 .collect()
         };
-        let scenes: Vec<Value> = SCENES
-            .iter()
-            .zip(self.defaults.iter().zip(&self.techniques))
-            .map(|(s, (d, t))| json!({ "scene": s.name, "defaults": defaults(d), "techniques": techniques(t) }))
-            .collect();
+        let none = Vec::new();
+        let one = |i: usize| {
+            let techniques = techniques(self.techniques.get(i).unwrap_or(&none));
+            json!({ "scene": self.scenes[i].name, "defaults": defaults(&self.defaults[i]), "techniques": techniques })
+        };
+        let scenes: Vec<Value> = (0..self.scenes.len()).map(one).collect();
         let peers: Vec<Value> = self
             .peers
             .iter()
