@@ -193,13 +193,13 @@ impl<'s, const N: usize> Path<'s, N> {
         let s = &isect.surface;
         self.add(connect::emitted(self.scene, &self.ray, hit, &isect, self.last, self.w), seen);
         let medium = self.medium;
-        if isect.binding.material.is_interface() {
+        if isect.material.is_interface() {
             self.watch(Event::Boundary, s.p, s.ng, hit.t, Spectrum::ONE, seen);
             self.go(s.origin(self.ray.d), self.ray.d, isect.medium_towards(self.ray.d, medium));
             self.crossings += 1;
             return self.crossings <= MAX_CROSSINGS;
         }
-        let material = &self.scene.materials[isect.binding.material.index()];
+        let material = &self.scene.materials[isect.material.index()];
         let (frame, bsdf) = material.shade(s, self.w);
         if O::WANTS_VERTICES {
             self.watch(Event::Surface, s.p, frame.z, hit.t, material.albedo(s, self.w), seen);

@@ -309,14 +309,14 @@ impl<'s, const N: usize> Walk<'s, N> {
         let s = &isect.surface;
         self.add(piece, connect::emitted(self.scene, &piece.ray, hit, &isect, piece.last, &piece.w), seen);
         let medium = piece.medium;
-        if isect.binding.material.is_interface() {
+        if isect.material.is_interface() {
             self.watch(piece, Event::Boundary, s.p, s.ng, hit.t, Spectrum::ONE, seen);
             piece.go(s.origin(piece.ray.d), piece.ray.d, isect.medium_towards(piece.ray.d, medium));
             piece.crossings += 1;
             piece.sampler.seek(CROSSING + piece.crossings);
             return piece.crossings <= MAX_CROSSINGS;
         }
-        let material = &self.scene.materials[isect.binding.material.index()];
+        let material = &self.scene.materials[isect.material.index()];
         if piece.depth >= self.settings.max_depth || !parts(piece, &material.shade(s, &piece.w).1) {
             return self.bounce(piece, &isect, hit.t, seen);
         }
@@ -340,7 +340,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         seen: &mut O,
     ) -> bool {
         let (s, medium, time) = (&isect.surface, piece.medium, piece.ray.time);
-        let material = &self.scene.materials[isect.binding.material.index()];
+        let material = &self.scene.materials[isect.material.index()];
         if O::WANTS_VERTICES {
             self.watch(piece, Event::Surface, s.p, s.ng, t, material.albedo(s, &piece.w), seen);
         }
@@ -446,9 +446,13 @@ impl<'s, const N: usize> Walk<'s, N> {
     }
 }
 
-/// Whether a smooth boundary sends the piece's wavelengths different ways.
+/// Whether a surface parts the piece's wavelengths: a smooth boundary sends them different ways, or its value is known
+/// for one of them only.
 #[inline(always)]
 fn parts<const N: usize>(piece: &Piece<N>, bsdf: &Bsdf<N>) -> bool {
+    if bsdf.wants_hero_only() {
+        return true;
+    }
     let Bsdf::Dielectric(b) = bsdf else { return false };
     let first = b.eta[piece.active.trailing_zeros() as usize];
     bsdf.is_delta() && (0..N).any(|k| piece.has(k) && b.eta[k] != first)

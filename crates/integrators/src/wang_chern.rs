@@ -156,14 +156,14 @@ impl<'s, const N: usize> Path<'s, N> {
         let isect = self.scene.interaction(&self.ray, hit);
         let s = &isect.surface;
         self.add(connect::emitted(self.scene, &self.ray, hit, &isect, self.last, self.w).hero(), seen);
-        if isect.binding.material.is_interface() {
+        if isect.material.is_interface() {
             self.watch(Event::Boundary, s.p, s.ng, hit.t, 1.0, seen);
             self.go(s.origin(self.ray.d), self.ray.d, isect.medium_towards(self.ray.d, self.medium));
             self.crossings += 1;
             sampler.seek(CROSSING + 2 * self.crossings);
             return self.crossings <= MAX_CROSSINGS;
         }
-        let material = &self.scene.materials[isect.binding.material.index()];
+        let material = &self.scene.materials[isect.material.index()];
         let (frame, bsdf) = material.shade(s, self.w);
         if O::WANTS_VERTICES {
             self.watch(Event::Surface, s.p, frame.z, hit.t, material.albedo(s, self.w).hero(), seen);

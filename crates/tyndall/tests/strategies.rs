@@ -195,3 +195,22 @@ fn clusters_part_in_dispersive_glass() {
     }
     family.assert(0.05);
 }
+
+/// Two materials on one surface, one of them a coat that is known for one wavelength at a time.
+#[test]
+fn mixed_materials_and_dispersive_coats() {
+    let text = format!(
+        "{}WorldBegin\nLightSource \"infinite\" \"bool absolute\" true \"spectrum L\" [300 1 900 2]\n\
+         MakeNamedMaterial \"bare\" \"string type\" \"diffuse\" \"spectrum reflectance\" [300 0.2 900 0.9]\n\
+         MakeNamedMaterial \"coated\" \"string type\" \"coateddiffuse\" \"spectrum eta\" [400 1.9 528 1.3] \
+         \"spectrum reflectance\" [300 0.8 900 0.1] \"float roughness\" 0.2\n\
+         Material \"mix\" \"string materials\" [\"bare\" \"coated\"] \"float amount\" 0.7\nShape \"sphere\"\n",
+        scene::camera(&BANDS, [0.0, 0.0, 5.0], [0.0; 3], 0.9),
+    );
+    let truth = run(BANDS, 2048, Spectral::Opow { set: None }).seed(2).bands(&text);
+    let mut family = Family::default();
+    family.equal("hero", &run(BANDS, 1024, Spectral::Hero { wavelengths: 8 }).bands(&text), &truth);
+    family.equal("swc", &swc(512, 8).seed(5).bands(&text), &truth);
+    family.equal("wang-chern", &wang_chern(2048).seed(7).bands(&text), &truth);
+    family.assert(0.06);
+}

@@ -69,10 +69,19 @@ pub(crate) fn cells_of(dims: [usize; 3]) -> Cells {
     Cells { origin: Vec3::ZERO, edge: Vec3::splat(edge as f32), dims: dims.map(|n| n.div_ceil(edge)) }
 }
 
-/// First and last index (with the margin) of the voxels that interpolation on `[lo, hi]` reads.
-pub(crate) fn reach(lo: f32, hi: f32, n: usize) -> std::ops::RangeInclusive<usize> {
-    let at = |x: f32| (x + 0.5).floor().clamp(0.0, (n + 1) as f32) as usize;
-    at(lo)..=(at(hi) + 1).min(n + 1)
+/// Indices (with the margin) of the voxels that interpolation in `b` reads.
+pub(crate) fn reach(b: Bounds3, dims: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    let axis = |lo: f32, hi: f32, n: usize| {
+        let at = |x: f32| (x + 0.5).floor().clamp(0.0, (n + 1) as f32) as usize;
+        at(lo)..=(at(hi) + 1).min(n + 1)
+    };
+    let xs = axis(b.lo.x, b.hi.x, dims[0]);
+    let ys = axis(b.lo.y, b.hi.y, dims[1]);
+    let zs = axis(b.lo.z, b.hi.z, dims[2]);
+    zs.flat_map(move |z| {
+        let xs = xs.clone();
+        ys.clone().flat_map(move |y| xs.clone().map(move |x| [x, y, z]))
+    })
 }
 
 impl Density for Dense {
@@ -93,16 +102,9 @@ impl Density for Dense {
     }
 
     fn extrema(&self, b: Bounds3) -> Extrema {
-        let [nx, ny, nz] = self.dims;
-        let mut e = Extrema::NONE;
-        for z in reach(b.lo.z, b.hi.z, nz) {
-            for y in reach(b.lo.y, b.hi.y, ny) {
-                for x in reach(b.lo.x, b.hi.x, nx) {
-                    e = e.with(self.values[(z * (ny + 2) + y) * (nx + 2) + x]);
-                }
-            }
-        }
-        e
+        let [nx, ny, _] = self.dims;
+        let value = |[x, y, z]: [usize; 3]| self.values[(z * (ny + 2) + y) * (nx + 2) + x];
+        reach(b, self.dims).map(value).fold(Extrema::NONE, Extrema::with)
     }
 
     fn bounds(&self) -> Bounds3 {

@@ -180,17 +180,11 @@ impl MediumModel for RgbGrid {
             (Some(_), None) => [0.0; 2],
             (Some(g), Some(i)) => g[i].sigmoid.bounds(range).map(|v| v * g[i].scale),
         };
-        let mut e = Extrema::NONE;
-        for z in reach(b.lo.z, b.hi.z, self.dims[2]) {
-            for y in reach(b.lo.y, b.hi.y, self.dims[1]) {
-                for x in reach(b.lo.x, b.hi.x, self.dims[0]) {
-                    let voxel = self.voxel([x as i32, y as i32, z as i32]);
-                    let (a, s) = (one(&self.sigma_a, voxel), one(&self.sigma_s, voxel));
-                    e = e.with(a[0] + s[0]).with(a[1] + s[1]);
-                }
-            }
-        }
-        e
+        reach(b, self.dims).fold(Extrema::NONE, |e, at| {
+            let voxel = self.voxel(at.map(|i| i as i32));
+            let (a, s) = (one(&self.sigma_a, voxel), one(&self.sigma_s, voxel));
+            e.with(a[0] + s[0]).with(a[1] + s[1])
+        })
     }
 
     fn bounds(&self) -> Bounds3 {

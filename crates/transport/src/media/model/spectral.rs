@@ -162,21 +162,13 @@ impl MediumModel for SpectralGrid {
 
     fn extrema(&self, b: Bounds3) -> Extrema {
         let bands = self.edges.len() - 1;
-        let mut e = Extrema::NONE;
-        for z in reach(b.lo.z, b.hi.z, self.dims[2]) {
-            for y in reach(b.lo.y, b.hi.y, self.dims[1]) {
-                for x in reach(b.lo.x, b.hi.x, self.dims[0]) {
-                    match self.voxel([x as i32, y as i32, z as i32]) {
-                        None => e = e.with(0.0),
-                        Some(first) => {
-                            let sums = self.values[first..first + bands].iter().map(|[a, s]| a + s);
-                            e = sums.fold(e, |e, v| e.with(v * self.scale));
-                        }
-                    }
-                }
+        reach(b, self.dims).fold(Extrema::NONE, |e, at| match self.voxel(at.map(|i| i as i32)) {
+            None => e.with(0.0),
+            Some(first) => {
+                let sums = self.values[first..first + bands].iter().map(|[a, s]| a + s);
+                sums.fold(e, |e, v| e.with(v * self.scale))
             }
-        }
-        e
+        })
     }
 
     fn bounds(&self) -> Bounds3 {
