@@ -1,4 +1,4 @@
-//! File formats: EXR (RGB and spectral), PNG, PFM and other textures, PLY meshes, NanoVDB volumes.
+//! File formats: EXR (RGB and spectral), PNG, PFM and other textures, PLY meshes, NanoVDB volumes, lenses.
 //!
 //! Every reader is bounded in memory by what the file can justify, and answers a malformed file with a
 //! [`FileError`] that says what was expected, what was found and what to do. Every writer goes through
@@ -8,6 +8,7 @@
 pub mod atomic;
 pub mod error;
 pub mod image;
+pub mod lens;
 mod limits;
 pub mod mesh;
 pub mod netcdf;

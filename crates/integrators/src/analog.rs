@@ -24,6 +24,7 @@ pub fn li<const N: usize>(
 ) -> Spectrum<N> {
     let mut l = Spectrum::ZERO;
     let mut medium = scene.camera_medium;
+    let mut from = ray.o; // where the ray took its direction
     let mut depth = 0;
     let mut radiance_scale = 1.0; // radiance over n^2 is what refraction conserves
     let hero = |value: f32| Spectrum::from_fn(|k| if k == 0 { value } else { 0.0 });
@@ -56,6 +57,7 @@ pub fn li<const N: usize>(
                     Medium::Heterogeneous(m) => m.scatter(p, -ray.d, uc, [u.x, u.y], w),
                 };
                 let Some(wi) = wi else { break };
+                from = p;
                 ray = Ray { time: ray.time, ..Ray::new(p, wi) };
                 continue;
             }
@@ -63,8 +65,8 @@ pub fn li<const N: usize>(
 
         // light from infinity
         let Some(hit) = hit else {
-            let sky: f32 =
-                scene.lights.infinite().iter().map(|&id| scene.lights.get(id).le_infinite(ray.d, w)[0]).sum();
+            let far = scene.lights.infinite().iter();
+            let sky: f32 = far.map(|&id| scene.lights.get(id).le_infinite(from, ray.d, w)[0]).sum();
             let value = hero(radiance_scale * sky);
             seen.contribution(depth, &value);
             return l + value;
@@ -102,6 +104,9 @@ pub fn li<const N: usize>(
             frame.from_local(b.wi)
         };
         medium = isect.medium_towards(wi, medium);
+        if !isect.material.is_interface() {
+            from = s.p;
+        }
         ray = Ray { time: ray.time, ..Ray::new(s.origin(wi), wi) };
     }
     l

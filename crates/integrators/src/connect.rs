@@ -25,7 +25,7 @@ impl Last {
         let light = scene.lights.get(id);
         let pdf = match target {
             Some(target) => light.pdf_li(&scene.accel, self.p, d, target),
-            None => light.pdf_infinite(d),
+            None => light.pdf_infinite(self.p, d),
         };
         self.pdf / (self.pdf + scene.lights.pmf(id) * pdf)
     }
@@ -95,13 +95,19 @@ pub fn emitted<const N: usize>(
     le * chance
 }
 
-/// The same for light from infinity along `d`.
+/// The same for light from infinity along `d`; `from` is where the ray took that direction.
 #[inline]
-pub fn sky<const N: usize>(scene: &Scene, d: Vec3, last: Option<Last>, w: &Wavelengths<N>) -> Spectrum<N> {
+pub fn sky<const N: usize>(
+    scene: &Scene,
+    from: Vec3,
+    d: Vec3,
+    last: Option<Last>,
+    w: &Wavelengths<N>,
+) -> Spectrum<N> {
     let mut l = Spectrum::ZERO;
     for &id in scene.lights.infinite() {
         let chance = last.map_or(1.0, |last| last.by_chance(scene, id, d, None));
-        l += scene.lights.get(id).le_infinite(d, w) * chance;
+        l += scene.lights.get(id).le_infinite(last.map_or(from, |last| last.p), d, w) * chance;
     }
     l
 }

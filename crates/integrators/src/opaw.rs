@@ -94,6 +94,7 @@ pub fn li<const N: usize>(
         all,
         w,
         ray,
+        from: ray.o,
         medium: scene.camera_medium,
         flight: warp::sample_exponential(first, 1.0),
         beta: Spectrum::ONE,
@@ -113,6 +114,8 @@ struct Path<'s, const N: usize> {
     all: &'s AllWavelengths,
     w: &'s Wavelengths<N>,
     ray: Ray,
+    /// Where the ray took its direction.
+    from: Vec3,
     medium: MediumId,
     /// Optical distance to the next collision by the mean extinction.
     flight: f32,
@@ -145,7 +148,7 @@ impl<'s, const N: usize> Path<'s, N> {
             None => {
                 let far = self.ray.o + self.ray.d;
                 self.watch(Event::Escape, far, Vec3::ZERO, f32::INFINITY, Spectrum::ZERO, seen);
-                self.add(connect::sky(self.scene, self.ray.d, self.last, self.w), seen);
+                self.add(connect::sky(self.scene, self.from, self.ray.d, self.last, self.w), seen);
                 false
             }
         }
@@ -183,6 +186,7 @@ impl<'s, const N: usize> Path<'s, N> {
         let u = sampler.next_2d();
         let s = m.phase.sample(wo, [u.x, u.y], guide);
         self.last = self.settings.light_sampling.then_some(Last { p, pdf: s.p.hero() });
+        self.from = p;
         self.ray = Ray { time: self.ray.time, ..Ray::new(p, s.wi) };
         self.survives(sampler)
     }
@@ -285,6 +289,9 @@ impl<'s, const N: usize> Path<'s, N> {
 
     #[inline(always)]
     fn go(&mut self, o: Vec3, d: Vec3, medium: MediumId) {
+        if d != self.ray.d {
+            self.from = o;
+        }
         self.ray = Ray { time: self.ray.time, ..Ray::new(o, d) };
         self.medium = medium;
     }

@@ -127,10 +127,22 @@ pub struct PixelPass {
 /// A sample on its way: where it started and what it draws from.
 pub(crate) struct Start<const N: usize> {
     pub(crate) ray: Ray,
+    /// What unit radiance along the ray gives the pixel.
+    pub(crate) exposure: f32,
     weight: f32,
     pub(crate) first_distance: f32,
     pub(crate) w: Wavelengths<N>,
     pub(crate) sampler: PathSampler,
+}
+
+impl<const N: usize> Start<N> {
+    /// Radiance along the ray becomes the pixel's value.
+    #[inline(always)]
+    fn expose(&self, values: &mut [f32]) {
+        if self.exposure != 1.0 {
+            values.iter_mut().for_each(|v| *v *= self.exposure);
+        }
+    }
 }
 
 impl Pass for PixelPass {
@@ -185,6 +197,7 @@ impl PixelPass {
                         let mut start = self.start::<N>(x, y, sample);
                         let l = self.li(&mut start, &mut ());
                         self.channels.respond(&l, &start.w, &mut values);
+                        start.expose(&mut values);
                         start.weight
                     }
                 };
@@ -213,6 +226,7 @@ impl PixelPass {
             start.w = all.set().group(g);
             let l = self.li(&mut start, &mut ());
             self.channels.respond(&l, &start.w, &mut part);
+            start.expose(&mut part);
             values.iter_mut().zip(&part).for_each(|(v, p)| *v += share * p);
             weight = start.weight;
         }
@@ -234,6 +248,8 @@ impl PixelPass {
                 let response = self.channels.prepare(&start.w);
                 self.channels.respond_prepared(&l, &response, main);
                 self.layers.write(&self.scene, &ray, &start.w, &self.channels, &seen, layers);
+                start.expose(main);
+                start.expose(&mut layers[..image * self.layers.orders.len()]);
                 out.add_sample(x, y, sample, start.weight, &values);
             }
         }
@@ -249,7 +265,7 @@ impl PixelPass {
     ) -> (Wavelengths<N>, Spectrum<N>) {
         let mut start = self.start::<N>(x, y, sample);
         let l = self.li(&mut start, seen);
-        (start.w, l)
+        (start.w, l * start.exposure)
     }
 
     #[inline(always)]
@@ -261,17 +277,20 @@ impl PixelPass {
         let time = sampler.next_1d();
         let filter = self.filter.sample([u_film.x, u_film.y]);
         let film = vec2(x as f32 + 0.5 + filter.offset[0], y as f32 + 0.5 + filter.offset[1]);
-        let ray = self.scene.camera.sample_ray(&CameraSample { film, lens, time });
+        let (ray, exposure) = self.scene.camera.sample(&CameraSample { film, lens, time });
         let w = match &self.sharing {
             Sharing::Means(all) => all.set().group::<N>(0),
             _ => self.wavelengths.sample::<N>(u_spectrum.x),
         };
-        Start { ray, weight: filter.weight, first_distance: u_spectrum.y, w, sampler }
+        Start { ray, exposure, weight: filter.weight, first_distance: u_spectrum.y, w, sampler }
     }
 
     #[inline(always)]
     fn li<const N: usize>(&self, start: &mut Start<N>, seen: &mut impl PathObserver<N>) -> Spectrum<N> {
         let Start { ray, first_distance, w, sampler, .. } = start;
+        if start.exposure == 0.0 {
+            return Spectrum::ZERO;
+        }
         let (scene, settings, first) = (&*self.scene, &self.settings, *first_distance);
         match (&self.sharing, self.method) {
             (Sharing::Clusters, _) => return swc::li(scene, settings, *ray, first, w, sampler, seen),

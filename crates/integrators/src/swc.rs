@@ -56,6 +56,7 @@ pub fn li<const N: usize>(
     let mut piece = Piece {
         w: *w,
         ray,
+        from: ray.o,
         medium: scene.camera_medium,
         flight: warp::sample_exponential(first, 1.0),
         beta: Spectrum::ONE,
@@ -87,6 +88,8 @@ pub fn li<const N: usize>(
 struct Piece<const N: usize> {
     w: Wavelengths<N>,
     ray: Ray,
+    /// Where the ray took its direction.
+    from: Vec3,
     medium: MediumId,
     /// Optical distance to the next collision.
     flight: f32,
@@ -166,6 +169,9 @@ impl<const N: usize> Piece<N> {
 
     #[inline(always)]
     fn go(&mut self, o: Vec3, d: Vec3, medium: MediumId) {
+        if d != self.ray.d {
+            self.from = o;
+        }
         self.ray = Ray { time: self.ray.time, ..Ray::new(o, d) };
         self.medium = medium;
     }
@@ -213,7 +219,11 @@ impl<'s, const N: usize> Walk<'s, N> {
             None => {
                 let far = piece.ray.o + piece.ray.d;
                 self.watch(piece, Event::Escape, far, Vec3::ZERO, f32::INFINITY, Spectrum::ZERO, seen);
-                self.add(piece, connect::sky(self.scene, piece.ray.d, piece.last, &piece.w), seen);
+                self.add(
+                    piece,
+                    connect::sky(self.scene, piece.from, piece.ray.d, piece.last, &piece.w),
+                    seen,
+                );
                 false
             }
         }
@@ -297,6 +307,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         let pdf = piece.mean(s.p);
         piece.beta *= s.p * (1.0 / pdf);
         piece.last = self.settings.light_sampling.then_some(Last { p, pdf });
+        piece.from = p;
         piece.ray = Ray { time: piece.ray.time, ..Ray::new(p, s.wi) };
         if piece.survives(self.settings) {
             self.push(piece);

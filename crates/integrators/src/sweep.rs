@@ -35,7 +35,7 @@ impl PixelPass {
             let (ray, first) = (start.ray, start.first_distance);
             let l = volpath::li_from(&self.scene, s, weight, ray, first, &w, &mut start.sampler, &mut ());
             // the mean of the densities was taken over all lanes, of which half count
-            let share = GUIDES as f32 / LANES as f32;
+            let share = start.exposure * (GUIDES as f32 / LANES as f32);
             for (k, o) in out.iter_mut().enumerate() {
                 *o = share * l[GUIDES + k];
             }

@@ -302,9 +302,9 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.watch(Event::Escape, far, Vec3::ZERO, f32::INFINITY, Spectrum::ZERO, seen);
         for &id in self.scene.lights.infinite() {
             let light = self.scene.lights.get(id);
-            let le = light.le_infinite(self.ray.d, self.w);
-            let pdf =
-                self.scene.lights.pmf_at(self.previous, self.facing, id) * light.pdf_infinite(self.ray.d);
+            let le = light.le_infinite(self.previous, self.ray.d, self.w);
+            let pmf = self.scene.lights.pmf_at(self.previous, self.facing, id);
+            let pdf = pmf * light.pdf_infinite(self.previous, self.ray.d);
             let r = self.weight.r_u + self.weight.r_l * self.by_light(pdf);
             self.add(self.weight.beta * le, r, seen);
         }

@@ -44,6 +44,7 @@ pub fn li<const N: usize>(
         settings,
         w,
         ray,
+        from: ray.o,
         medium,
         beta: 1.0,
         depth: 0,
@@ -68,6 +69,8 @@ struct Path<'s, const N: usize> {
     settings: &'s Settings,
     w: &'s Wavelengths<N>,
     ray: Ray,
+    /// Where the ray took its direction.
+    from: Vec3,
     medium: MediumId,
     /// Product of albedos and reflectances.
     beta: f32,
@@ -102,7 +105,7 @@ impl<'s, const N: usize> Path<'s, N> {
             None => {
                 let far = self.ray.o + self.ray.d;
                 self.watch(Event::Escape, far, Vec3::ZERO, f32::INFINITY, 0.0, seen);
-                self.add(connect::sky(self.scene, self.ray.d, self.last, self.w).hero(), seen);
+                self.add(connect::sky(self.scene, self.from, self.ray.d, self.last, self.w).hero(), seen);
                 false
             }
         }
@@ -141,6 +144,7 @@ impl<'s, const N: usize> Path<'s, N> {
         let u = sampler.next_2d();
         let s = m.phase.sample(wo, [u.x, u.y], self.w);
         self.last = self.settings.light_sampling.then_some(Last { p, pdf: s.p.hero() });
+        self.from = p;
         self.ray = Ray { time: self.ray.time, ..Ray::new(p, s.wi) };
         self.survives(sampler)
     }
@@ -220,6 +224,9 @@ impl<'s, const N: usize> Path<'s, N> {
 
     #[inline(always)]
     fn go(&mut self, o: Vec3, d: Vec3, medium: MediumId) {
+        if d != self.ray.d {
+            self.from = o;
+        }
         self.ray = Ray { time: self.ray.time, ..Ray::new(o, d) };
         self.medium = medium;
     }

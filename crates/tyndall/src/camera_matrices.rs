@@ -26,7 +26,7 @@ impl CameraMatrices {
         let to_camera = *camera.to_world().inverse().matrix();
         let projection = match camera {
             Camera::Perspective(c) => perspective(f64::from(c.tan_half())),
-            Camera::Orthographic(_) | Camera::Spherical(_) => IDENTITY,
+            Camera::Orthographic(_) | Camera::Spherical(_) | Camera::Realistic(_) => IDENTITY,
         };
         let window = window(camera.projective());
         Self {

@@ -9,9 +9,11 @@ mod alias;
 mod piecewise;
 #[cfg(test)]
 mod tests;
+mod windowed;
 
 pub use alias::Alias;
 pub use piecewise::{Piecewise1d, Piecewise2d};
+pub use windowed::{Window, Windowed2d};
 
 /// Number of values a uniform `f32` takes.
 const STEPS: u32 = 1 << 24;

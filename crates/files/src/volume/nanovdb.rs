@@ -5,15 +5,14 @@
 //! of 16 bytes, 176 bytes and a name for each grid, then the grids, each compressed on its own. A file may also be a row of
 //! bare grids. The file is mapped, not read; every offset in it is checked before it is followed.
 
-mod blosc;
-mod bytes;
 mod leaf;
 mod tree;
 
-pub use tree::{Class, Grid};
+pub use super::Class;
+pub use tree::Grid;
 
+use super::{blosc, bytes::Bytes};
 use crate::error::{FileError, Place, Result};
-use bytes::Bytes;
 use std::{borrow::Cow, fs::File, io::Read, path::Path, path::PathBuf};
 
 const MAGIC_OLD: u64 = 0x3042_4456_6f6e_614e;
@@ -184,9 +183,6 @@ fn foreign(magic: u64) -> String {
     let swapped = [MAGIC_OLD, MAGIC_FILE, MAGIC_GRID].contains(&magic.swap_bytes());
     if swapped {
         return "one with bytes in reverse order".into();
-    }
-    if magic == 0x5644_4220 {
-        return "an OpenVDB file (nanovdb_convert makes a NanoVDB file of it)".into();
     }
     format!("{magic:#018x}")
 }

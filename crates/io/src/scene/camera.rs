@@ -1,5 +1,7 @@
 //! `Camera`.
 
+mod realistic;
+
 use super::{
     build::{fractions, moving},
     collect::Declared,
@@ -10,7 +12,8 @@ use super::{
 use tyndall_pbrt::{Error, ParamSet};
 use tyndall_transport::camera::{Camera, Orthographic, Perspective, Projective, Spherical, SphericalMapping};
 
-const KNOWN: [&str; 15] = [
+const KNOWN: [&str; 16] = [
+    "focusdistance",
     "mapping",
     "lensfile",
     "aperturediameter",
@@ -42,6 +45,16 @@ pub fn camera(
     }
     let resolution = film::resolution(&film.params)?;
     let class = declared.name.as_str();
+    if class == "realistic" {
+        for name in ["lensradius", "focaldistance", "screenwindow", "frameaspectratio", "fov"] {
+            p.ignore(name, "the lens file and the film's size say it");
+        }
+        let placed = placed(declared, times, shutter, resolution)?;
+        let camera = realistic::camera(ctx, p, placed, film.params.float64("diagonal", 35.0)?)?;
+        ctx.finish(p, &KNOWN);
+        return Ok((camera, shutter));
+    }
+    film.params.ignore("diagonal", "only a realistic camera has use for the film's size");
     let made = match class {
         "perspective" => {
             let fov = p.float("fov", 90.0)?;
@@ -60,7 +73,7 @@ pub fn camera(
             Spherical::new(placed(declared, times, shutter, resolution)?, mapping).map(Camera::Spherical)
         }
         other => {
-            let hint = "known are perspective, orthographic and spherical; a realistic camera's lens files are not read";
+            let hint = "known are perspective, orthographic, spherical and realistic";
             return Err(p.error(format!("camera \"{other}\" is not supported")).hint(hint));
         }
     };

@@ -94,7 +94,6 @@ pub fn film(ctx: &Context<'_>, declared: &Declared, exposure: f64) -> Result<Fil
         return Err(refuse(p, "sensor", "must be a known sensor", format!("\"{name}\"")).hint(hint));
     }
     p.ignore("savefp16", "images are written in 32 bits");
-    p.ignore("diagonal", "only a realistic camera has use for the film's size");
     if p.contains("maxcomponentvalue") {
         p.ignore("maxcomponentvalue", "samples are never clipped in silence");
         p.warn_at(

@@ -2,10 +2,12 @@
 
 mod orthographic;
 mod perspective;
+mod realistic;
 mod spherical;
 
 pub use orthographic::Orthographic;
 pub use perspective::Perspective;
+pub use realistic::{Aperture, Element, Lens, Realistic};
 pub use spherical::{Spherical, SphericalMapping};
 
 use crate::{TransportError, error::check};
@@ -96,17 +98,27 @@ pub enum Camera {
     Orthographic(Orthographic),
     /// All directions.
     Spherical(Spherical),
+    /// Through a system of lenses.
+    Realistic(Box<Realistic>),
 }
 
 impl Camera {
-    /// The ray through `sample`, with unit direction.
+    /// The ray through `sample`, with unit direction, and what unit radiance along it gives the pixel: 1, but behind a
+    /// system of lenses, where it is 0 for a ray that they block.
+    #[inline]
+    pub fn sample(&self, sample: &CameraSample) -> (Ray, f32) {
+        match self {
+            Self::Perspective(c) => (c.sample_ray(sample), 1.0),
+            Self::Orthographic(c) => (c.sample_ray(sample), 1.0),
+            Self::Spherical(c) => (c.sample_ray(sample), 1.0),
+            Self::Realistic(c) => c.sample(sample),
+        }
+    }
+
+    /// The ray of [`Self::sample`].
     #[inline]
     pub fn sample_ray(&self, sample: &CameraSample) -> Ray {
-        match self {
-            Self::Perspective(c) => c.sample_ray(sample),
-            Self::Orthographic(c) => c.sample_ray(sample),
-            Self::Spherical(c) => c.sample_ray(sample),
-        }
+        self.sample(sample).0
     }
 
     /// Film resolution in pixels.
@@ -135,6 +147,7 @@ impl Camera {
             Self::Perspective(c) => &c.projective,
             Self::Orthographic(c) => &c.projective,
             Self::Spherical(c) => &c.projective,
+            Self::Realistic(c) => &c.projective,
         }
     }
 
@@ -143,6 +156,7 @@ impl Camera {
             Self::Perspective(c) => &mut c.projective,
             Self::Orthographic(c) => &mut c.projective,
             Self::Spherical(c) => &mut c.projective,
+            Self::Realistic(c) => &mut c.projective,
         }
     }
 }

@@ -52,7 +52,7 @@ impl LightBounds {
             Light::Spot(l) => Some(Self { axis: l.axis, cos_o: 1.0, cos_e: l.cos_end, ..everywhere(l.p) }),
             Light::Goniometric(l) => Some(everywhere(l.p)),
             Light::Projection(l) => Some(everywhere(l.p())),
-            Light::Distant(_) | Light::Infinite(_) | Light::Image(_) => None,
+            Light::Distant(_) | Light::Infinite(_) | Light::Image(_) | Light::Portal(_) => None,
         }
     }
 

@@ -11,6 +11,7 @@ mod goniometric;
 mod image;
 mod infinite;
 mod point;
+mod portal;
 mod projection;
 mod set;
 mod spot;
@@ -22,6 +23,7 @@ pub use goniometric::{GoniometricLight, PhotometricWeb, Profile};
 pub use image::{EnvironmentImage, ImageInfiniteLight, RgbEmission, sphere_to_square, square_to_sphere};
 pub use infinite::UniformInfiniteLight;
 pub use point::PointLight;
+pub use portal::{Portal, PortalLight, Sky};
 pub use projection::ProjectionLight;
 pub use set::{LightSet, Selected, Selection};
 pub use spot::SpotLight;
@@ -97,6 +99,8 @@ pub enum Light {
     Infinite(UniformInfiniteLight),
     /// An environment map.
     Image(ImageInfiniteLight),
+    /// Light from infinity through a rectangle.
+    Portal(Box<PortalLight>),
     /// A point whose intensity depends on the direction.
     Goniometric(Box<GoniometricLight>),
     /// A point that projects an image.
@@ -120,6 +124,7 @@ impl Light {
             Self::Distant(l) => Some(l.sample_li(w)),
             Self::Infinite(l) => Some(l.sample_li(u, w)),
             Self::Image(l) => l.sample_li(u, w),
+            Self::Portal(l) => l.sample_li(p, u, w),
             Self::Goniometric(l) => l.sample_li(p, w),
             Self::Projection(l) => l.sample_li(p, w),
         }
@@ -135,7 +140,7 @@ impl Light {
             Self::Spot(l) => Some(at(l.p)),
             Self::Goniometric(l) => Some(at(l.p)),
             Self::Projection(l) => Some(at(l.p())),
-            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) => None,
+            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) | Self::Portal(_) => None,
         }
     }
 
@@ -153,7 +158,7 @@ impl Light {
             Self::Spot(l) => l.intensity_along(d, w),
             Self::Goniometric(l) => l.intensity_along(d, w),
             Self::Projection(l) => l.intensity_along(d, w),
-            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) => Spectrum::ZERO,
+            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) | Self::Portal(_) => Spectrum::ZERO,
         }
     }
 
@@ -167,7 +172,7 @@ impl Light {
             | Self::Distant(_)
             | Self::Goniometric(_)
             | Self::Projection(_) => 1.0,
-            Self::Infinite(_) | Self::Image(_) => self.pdf_infinite(wi),
+            Self::Infinite(_) | Self::Image(_) | Self::Portal(_) => self.pdf_infinite(p, wi),
         }
     }
 
@@ -192,29 +197,32 @@ impl Light {
         if let Self::Area(l) = self { l.radiance(n, uv, d, w) } else { Spectrum::ZERO }
     }
 
-    /// Radiance from infinity along the ray direction `d` (zero for lights of finite extent).
+    /// Radiance from infinity that reaches `p` along the ray direction `d` (zero for lights of finite extent); `p` is the
+    /// last point where the path scattered.
     #[inline]
-    pub fn le_infinite<const N: usize>(&self, d: Vec3, w: &Wavelengths<N>) -> Spectrum<N> {
+    pub fn le_infinite<const N: usize>(&self, p: Vec3, d: Vec3, w: &Wavelengths<N>) -> Spectrum<N> {
         match self {
             Self::Infinite(l) => l.emission.sample(w),
             Self::Image(l) => l.le(d, w),
+            Self::Portal(l) => l.le(p, d, w),
             _ => Spectrum::ZERO,
         }
     }
 
-    /// Density per solid angle with which `sample_li` draws direction `d` (lights at infinity only).
+    /// Density per solid angle with which `sample_li` draws direction `d` from `p` (lights at infinity only).
     #[inline]
-    pub fn pdf_infinite(&self, d: Vec3) -> f32 {
+    pub fn pdf_infinite(&self, p: Vec3, d: Vec3) -> f32 {
         match self {
             Self::Infinite(_) => UniformInfiniteLight::PDF,
             Self::Image(l) => l.pdf(d),
+            Self::Portal(l) => l.pdf(p, d),
             _ => 0.0,
         }
     }
 
     /// True for points and single directions.
     pub fn is_delta(&self) -> bool {
-        !matches!(self, Self::Area(_) | Self::Infinite(_) | Self::Image(_))
+        !matches!(self, Self::Area(_)) && !self.is_sky()
     }
 
     /// True when no ray of chance can meet the light.
@@ -222,9 +230,14 @@ impl Light {
         self.is_delta() || matches!(self, Self::Area(l) if l.is_invisible())
     }
 
+    /// True for lights that rays which leave the scene may meet.
+    pub const fn is_sky(&self) -> bool {
+        matches!(self, Self::Infinite(_) | Self::Image(_) | Self::Portal(_))
+    }
+
     /// True for lights of finite extent.
     pub fn is_local(&self) -> bool {
-        !matches!(self, Self::Distant(_) | Self::Infinite(_) | Self::Image(_))
+        !matches!(self, Self::Distant(_)) && !self.is_sky()
     }
 
     /// Emitted power over the light's emission spectrum: area times solid angle (times pi, the projected one).
@@ -239,6 +252,7 @@ impl Light {
             Self::Projection(l) => l.solid_angle(),
             Self::Distant(_) => disk,
             Self::Infinite(_) | Self::Image(_) => 4.0 * PI * disk,
+            Self::Portal(l) => PI * f64::from(l.area()),
         }
     }
 
@@ -251,6 +265,7 @@ impl Light {
             Self::Distant(l) => &l.emission,
             Self::Infinite(l) => &l.emission,
             Self::Image(l) => l.mean_emission(),
+            Self::Portal(l) => l.mean_emission(),
             Self::Goniometric(l) => &l.intensity,
             Self::Projection(l) => l.mean_emission(),
         }

@@ -86,10 +86,7 @@ impl LightSet {
     /// `weigh` integrates an emission spectrum over wavelength.
     pub fn new(lights: Vec<Light>, scene_radius: f32, weigh: &dyn Fn(&Emission) -> f64) -> Self {
         let powers: Vec<f64> = lights.iter().map(|l| l.extent(scene_radius) * weigh(l.spectrum())).collect();
-        let infinite = (0..lights.len())
-            .filter(|&i| matches!(lights[i], Light::Infinite(_) | Light::Image(_)))
-            .map(|i| LightId(i as u32))
-            .collect();
+        let infinite = (0..lights.len()).filter(|&i| lights[i].is_sky()).map(|i| LightId(i as u32)).collect();
         let all = Choice::new(&powers, |_| true);
         let local = Choice::new(&powers, |i| lights[i].is_local());
         Self { lights, infinite, all, local, spatial: None }

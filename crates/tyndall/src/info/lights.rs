@@ -48,6 +48,7 @@ const fn kind(light: &Light) -> &'static str {
         Light::Distant(_) => "distant",
         Light::Infinite(_) => "infinite",
         Light::Image(_) => "infinite, image",
+        Light::Portal(_) => "infinite, portal",
         Light::Goniometric(_) => "goniometric",
         Light::Projection(_) => "projection",
     }

@@ -3,8 +3,7 @@
 //! A leaf begins with its box (16 bytes) and the mask of active voxels (64 bytes). Quantised ones then have the minimum
 //! and the step, and codes from byte 96 on: `value = code step + minimum`.
 
-use super::bytes::Bytes;
-use crate::error::Result;
+use crate::{error::Result, volume::bytes::Bytes};
 
 /// How the values of a grid are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

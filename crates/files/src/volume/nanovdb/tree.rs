@@ -3,10 +3,10 @@
 //! Root (a table of cubes of 4096^3 voxels), upper nodes (32^3 cubes of 128^3), lower nodes (16^3 cubes of 8^3), leaves
 //! (8^3 voxels). A child is given by its distance in bytes from the node that names it.
 
-use super::{MAGIC_GRID, MAGIC_OLD, bytes::Bytes, leaf::Kind, version};
+use super::{Class, MAGIC_GRID, MAGIC_OLD, leaf::Kind, version};
 use crate::{
     error::{FileError, Result},
-    volume::Piece,
+    volume::{Piece, bytes::Bytes},
 };
 use std::{
     borrow::Cow,
@@ -23,19 +23,6 @@ const UPPER_ENTRIES: u64 = 32 * 32 * 32;
 const LOWER_ENTRIES: u64 = 16 * 16 * 16;
 /// Voxel indices beyond this are damage.
 const FAR: i32 = 1 << 24;
-
-/// What a grid says it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
-    /// Nothing.
-    Unknown,
-    /// Distances to a surface.
-    LevelSet,
-    /// Densities.
-    FogVolume,
-    /// Something else, by its number.
-    Other(u32),
-}
 
 /// A grid of numbers.
 #[derive(Debug)]

@@ -16,7 +16,7 @@ use super::{
 use tyndall_base::Vec3;
 use tyndall_pbrt::{Error, ParamSet};
 use tyndall_spectral::Emission;
-use tyndall_transport::light::{DistantLight, Light, PointLight, SpotLight, UniformInfiniteLight};
+use tyndall_transport::light::{DistantLight, Light, PointLight, SpotLight};
 
 const KNOWN: [&str; 19] = [
     "L",
@@ -72,7 +72,7 @@ fn light(ctx: &Context<'_>, record: &LightRecord, units: &mut Units) -> Result<L
             let emission = powered(p, "illuminance", emission, 1.0)?;
             Light::Distant(DistantLight { towards: towards.normalize(), emission })
         }
-        "infinite" => infinite(ctx, record, units)?,
+        "infinite" => infinite::light(ctx, record, units)?,
         "goniometric" => goniometric::light(ctx, record, units)?,
         "projection" => projection::light(ctx, record, units)?,
         other => {
@@ -105,21 +105,4 @@ fn spot(
     let spot = SpotLight::new(from, to - from, intensity.clone(), angle, delta).map_err(|e| at(p, e))?;
     let intensity = powered(p, "power", intensity, spot.solid_angle())?;
     Ok(Light::Spot(SpotLight { intensity, ..spot }))
-}
-
-fn infinite(ctx: &Context<'_>, record: &LightRecord, units: &mut Units) -> Result<Light, Error> {
-    let p = &record.declared.params;
-    if p.contains("portal") {
-        let hint = "without the portal the picture is the same but noisier: delete the parameter";
-        return Err(p.error_at("portal", "is not supported in this version", "a portal").hint(hint));
-    }
-    if p.contains("filename") {
-        if p.contains("L") {
-            return Err(p.error("infinite light: expected \"L\" or \"filename\", got both"));
-        }
-        return infinite::image(ctx, record, units);
-    }
-    let emission = emission::of_light(ctx, p, "L", &record.declared.color_space, units)?;
-    let emission = powered(p, "illuminance", emission, std::f64::consts::PI)?;
-    Ok(Light::Infinite(UniformInfiniteLight { emission }))
 }

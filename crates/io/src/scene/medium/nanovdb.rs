@@ -1,4 +1,4 @@
-//! `nanovdb`: pbrt-v4's parameters; densities and temperatures from a NanoVDB file.
+//! `nanovdb`: pbrt-v4's parameters; densities and temperatures from a NanoVDB or OpenVDB file.
 
 use super::super::{
     context::{Context, at, refuse},
@@ -7,10 +7,7 @@ use super::super::{
 use super::grid::thermal;
 use tyndall_files::{
     FileError,
-    volume::{
-        Piece,
-        nanovdb::{Class, Grid, NanoVdb},
-    },
+    volume::{Class, Grid, Piece, Volume},
 };
 use tyndall_geometry::Transform;
 use tyndall_pbrt::{Error, ParamSet};
@@ -33,7 +30,7 @@ pub fn model(
 ) -> Result<(Model, Transform), Error> {
     let Some(name) = params.string_opt("filename")? else { return Err(params.missing("string", "filename")) };
     let path = ctx.file(params, "filename", name)?;
-    let file = NanoVdb::open(&path).map_err(|e| at(params, e))?;
+    let file = Volume::open(&path).map_err(|e| at(params, e))?;
     let wanted = params.string("gridname", "density")?;
     let Some(density) = load(ctx, params, &file, "gridname", &wanted)? else {
         let hint = format!("the file has {}", file.names().join(", "));
@@ -72,7 +69,7 @@ pub fn model(
 fn load(
     ctx: &Context<'_>,
     params: &ParamSet,
-    file: &NanoVdb,
+    file: &Volume,
     param: &str,
     name: &str,
 ) -> Result<Option<Loaded>, Error> {

@@ -1,4 +1,4 @@
-//! Blosc, version 1 of the format, with LZ4: what NanoVDB writes.
+//! Blosc, version 1 of the format, with LZ4: what NanoVDB and OpenVDB write.
 //!
 //! Each chunk has its length in front. Inside: a header of 16 bytes (versions, flags, size of an element; then the sizes of
 //! the data, of a block and of the chunk), the offset of every block, and in a block one stream, or one for each byte of
@@ -38,7 +38,7 @@ pub fn chunks(file: &Bytes<'_>, at: u64, stored: &[u8], size: u64) -> Result<Vec
 }
 
 /// Appends what one chunk holds; the error says what was expected.
-fn decode(chunk: &[u8], out: &mut Vec<u8>) -> std::result::Result<(), &'static str> {
+pub fn decode(chunk: &[u8], out: &mut Vec<u8>) -> std::result::Result<(), &'static str> {
     let u32_at =
         |i: usize| chunk.get(i..i + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b) as usize);
     let header = chunk.first_chunk::<4>().ok_or("a header of blosc")?;
