@@ -39,6 +39,18 @@ impl Failure {
         Self::Input(report_of(&what.into(), hint))
     }
 
+    /// The same failure, with more to do about it.
+    pub fn with_hint(self, more: &str) -> Self {
+        let add = |report: Report| {
+            let hint = report.help().map_or_else(String::new, |help| format!("{help}; "));
+            report_of(&report.to_string(), Some(&(hint + more)))
+        };
+        match self {
+            Self::Other(report) => Self::Other(add(report)),
+            other => other,
+        }
+    }
+
     /// The failure that an error of the library amounts to.
     pub fn of(error: Error) -> Self {
         let input = is_input(&error);

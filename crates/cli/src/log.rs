@@ -4,6 +4,7 @@ use std::fmt;
 use std::io::{self, IsTerminal, Write};
 
 use indicatif::{MultiProgress, ProgressDrawTarget};
+use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
 use tracing_subscriber::Layer;
 use tracing_subscriber::filter::{LevelFilter, Targets};
@@ -92,13 +93,29 @@ where
 {
     fn format_event(
         &self,
-        context: &FmtContext<'_, S, N>,
+        _context: &FmtContext<'_, S, N>,
         mut writer: Writer<'_>,
         event: &Event<'_>,
     ) -> fmt::Result {
         writer.write_str(prefix(*event.metadata().level()))?;
-        context.field_format().format_fields(writer.by_ref(), event)?;
+        let mut message = Message { writer: writer.by_ref(), written: Ok(()) };
+        event.record(&mut message);
+        message.written?;
         writeln!(writer)
+    }
+}
+
+/// Writes the message of an event; its fields, which repeat numbers of the message, are for programs.
+struct Message<'w> {
+    writer: Writer<'w>,
+    written: fmt::Result,
+}
+
+impl Visit for Message<'_> {
+    fn record_debug(&mut self, field: &Field, value: &dyn fmt::Debug) {
+        if field.name() == "message" {
+            self.written = write!(self.writer, "{value:?}");
+        }
     }
 }
 

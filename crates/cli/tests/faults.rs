@@ -142,6 +142,73 @@ fn a_terminal_without_width() {
     assert!(place.has("a.exr") && !ran.out.contains("panicked"), "{}", ran.out);
 }
 
+/// When not all threads can be started, those that have started must not keep the program waiting.
+#[test]
+#[cfg(target_os = "linux")]
+fn threads_that_cannot_be_started() {
+    let place = Place::new();
+    // 1 GiB of addresses has no room for so many stacks
+    let line =
+        "ulimit -v 1048576; timeout 60 $T render --resolution 64x64 --spp 64 --quiet --threads 2000 -o a.exr";
+    let ran = shell(&place, line);
+    failed(&ran, 2, "cannot start thread");
+    assert!(ran.err.contains("hint: give --threads a smaller number"), "{}", ran.err);
+}
+
+/// The image cannot be written, but what was rendered is in the checkpoint.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_result_that_cannot_be_written_is_not_lost() {
+    let place = Place::new();
+    symlink("/dev/full", place.path("a.exr")).expect("writable");
+    let ran = place.run(&format!("{TINY} -o a.exr -o b.csv"));
+    failed(&ran, 1, "a.exr: cannot write: No space left on device");
+    assert!(ran.err.contains("a.ckpt holds what was rendered, and --resume writes it"), "{}", ran.err);
+    assert!(place.has("b.csv") && !place.has("a.run.json"), "the other result is written");
+    std::fs::remove_file(place.path("a.exr")).expect("ours");
+    place.ok(&format!("{TINY} -o a.exr -o b.csv --resume"));
+    place.ok(&format!("{TINY} -o c.exr"));
+    assert!(place.read("a.exr") == place.read("c.exr"));
+    assert!(!place.has("a.ckpt"));
+}
+
+/// Files of a run that would destroy its input or one another.
+#[test]
+fn files_that_would_be_written_over() {
+    let place = Place::new();
+    let scene = "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nCamera \"perspective\"\nWorldBegin\n\
+                 LightSource \"infinite\"\n";
+    place.write("a.pbrt", scene);
+    place.write("diary", "mine");
+    for (options, message) in [
+        ("--checkpoint a.pbrt", "a.pbrt: is the scene, and a checkpoint would be written over it"),
+        ("--checkpoint ./a.pbrt --resume --force", "a.pbrt: is the scene"),
+        ("--checkpoint diary", "diary: exists and is no checkpoint"),
+        ("-o b.exr --checkpoint b.exr", "b.exr: would be written twice, as a result and as a checkpoint"),
+        ("-o b.exr -o b.error.exr", "b.error.exr: would be written twice"),
+        ("-o b.png -o ./b.png", "./b.png: would be written twice"),
+    ] {
+        failed(&place.run(&format!("render a.pbrt --spp 2 {options}")), 2, message);
+    }
+    assert!(place.read("a.pbrt") == scene.as_bytes() && place.read("diary") == b"mine");
+    place.ok("render a.pbrt --spp 2 --quiet --shard 1/2 -o s.film");
+    failed(&place.run("render a.pbrt --spp 2 --quiet --shard 2/2 -o s.film"), 2, "s.film: exists");
+}
+
+/// An image so far is not the result, whatever else is lost.
+#[test]
+fn an_interrupted_image_is_not_taken_for_the_result() {
+    let place = Place::new();
+    let job = "render --resolution 32x32 --spp 1000000 --quiet -o a.exr";
+    place.ok(&format!("{job} --time 1ms"));
+    assert_eq!(place.json("a.run.json")["complete"], false);
+    let shown = place.run(&format!("{} --resume", job.replace("1000000", "999999")));
+    assert!(shown.refusal().contains("a.ckpt: belongs to another job"), "{}", shown.err);
+    std::fs::remove_file(place.path("a.ckpt")).expect("ours");
+    let resumed = place.run(&format!("{job} --resume"));
+    assert!(resumed.refusal().contains("there is no checkpoint to resume from"), "{}", resumed.err);
+}
+
 /// Under `nohup`, or in the background of a script, some signals are ignored; the others still end a run well.
 #[test]
 fn signals_that_are_ignored_stay_so() {

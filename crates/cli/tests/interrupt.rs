@@ -40,7 +40,7 @@ fn an_interrupted_job_leaves_image_and_checkpoint_and_resumes_to_the_same_bits()
     let place = Place::new();
     let mut child = start(&place, JOB);
     wait_for(&place, "a.ckpt");
-    signal("INT", &child);
+    signal("TERM", &child);
     assert_eq!(child.wait().expect("ends").code(), Some(130));
     for name in ["a.exr", "a.error.exr", "a.run.json", "a.ckpt"] {
         assert!(place.has(name), "{name}");
@@ -93,7 +93,7 @@ fn a_damaged_checkpoint_falls_back_to_its_predecessor() {
     let place = Place::new();
     let mut child = start(&place, JOB);
     wait_for(&place, "a.ckpt.1");
-    signal("INT", &child);
+    signal("TERM", &child);
     child.wait().expect("ends");
     let whole = place.read("a.ckpt");
     place.write("a.ckpt", &whole[..whole.len() / 2]);

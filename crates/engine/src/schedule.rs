@@ -16,6 +16,8 @@ pub const TILE: u32 = 16;
 pub const MAX_SPP: u32 = 1 << 30;
 /// Samples of all pixels that make a unit large enough to be worth its delivery.
 const UNIT_SAMPLES: u64 = 4096;
+/// A round is cut into about so many units at most, for they are all kept in memory.
+const UNITS: u64 = 1 << 18;
 /// Samples of the first round.
 const FIRST: u32 = 4;
 /// Length up to which rounds double.
@@ -39,12 +41,15 @@ impl Schedule {
     /// The units of a round that has something to do, in row-major order of tiles.
     pub fn units(&self, round: u32, samples: &Range<u32>, guide: &Guide) -> Vec<WorkUnit> {
         let mut units = Vec::new();
+        let tiles =
+            u64::from(self.window.width().div_ceil(TILE)) * u64::from(self.window.height().div_ceil(TILE));
         for window in self.window.tiles(TILE) {
             let (active, span) = active(&window, samples, guide);
             if active == 0 {
                 continue;
             }
-            let chunk = (self.unit_samples / active).clamp(1, u64::from(u32::MAX)) as usize;
+            let least = span.len() as u64 * tiles / UNITS;
+            let chunk = (self.unit_samples / active).max(least).clamp(1, u64::from(u32::MAX)) as usize;
             for start in span.clone().step_by(chunk) {
                 let end = start.saturating_add(chunk as u32).min(span.end);
                 units.push(WorkUnit { window, samples: start..end, round });
@@ -183,6 +188,16 @@ mod tests {
                 assert_eq!(seen[spec.bounds.index(x, y)], expected);
             }
         }
+    }
+
+    #[test]
+    fn the_longest_rounds_have_no_more_units_than_memory_holds() {
+        let schedule = Schedule::new(&FilmSpec::xyz([512, 512], ErrorMode::Conservative));
+        let last = rounds(0..MAX_SPP).last().unwrap();
+        let units = schedule.units(0, &last, &Guide::default());
+        assert!(units.len() as u64 <= UNITS, "{}", units.len());
+        let samples: u64 = units.iter().map(|u| u.window.area() * u.samples.len() as u64).sum();
+        assert_eq!(samples, 512 * 512 * last.len() as u64);
     }
 
     #[test]

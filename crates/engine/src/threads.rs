@@ -46,9 +46,11 @@ impl Backend for Threads {
         let (send, receive) = sync_channel(2 * self.0);
         let (recycle, spare) = channel();
         let spare = Mutex::new(spare);
-        thread::scope(|scope| {
+        let (queue, stop, spare) = (&queue, &stop, &spare);
+        // the receiver goes in: when a thread cannot be started, those that wait to send must not wait for ever
+        thread::scope(move |scope| {
             for k in 0..self.0 {
-                let (send, queue, stop, spare) = (send.clone(), &queue, &stop, &spare);
+                let send = send.clone();
                 let name = format!("tyndall-{k}");
                 let body = move || worker(work, queue, stop, spare, &send);
                 let spawned = thread::Builder::new().name(name).stack_size(STACK).spawn_scoped(scope, body);
@@ -61,7 +63,7 @@ impl Backend for Threads {
                 }
             }
             drop(send);
-            merge(&receive, &recycle, &stop, deliver)
+            merge(&receive, &recycle, stop, deliver)
         })
     }
 

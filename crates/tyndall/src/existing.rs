@@ -34,7 +34,7 @@ pub fn belongs(path: &Path, ours: &Provenance) -> bool {
         Some("png") => read_png_texts(path).is_ok_and(|t| t.get(attribute::JOB) == Some(&ours.job)),
         Some("csv") => table::job_of(path).as_deref() == Some(&ours.job),
         Some("nc") => cube::job_of(path).as_deref() == Some(&ours.job),
-        Some("film") => film_identity(path).as_deref() == Some(&ours.settings[..]),
+        Some("film") => is_film_of(path, ours),
         Some("json") => Record::read(path).is_some_and(|r| same_run(&r, ours)),
         _ => false,
     }
@@ -47,16 +47,16 @@ fn exr_job(path: &Path) -> Option<String> {
     }
 }
 
-/// The identity in a film's header; the film itself is not read.
-fn film_identity(path: &Path) -> Option<Vec<(String, String)>> {
-    let mut identity = None;
+/// Whether a film's header names the job, and the same part of it; the film itself is not read.
+fn is_film_of(path: &Path, ours: &Provenance) -> bool {
+    let mut same = false;
     let stop = |header: &container::Header| {
-        identity = Some(header.identity.clone());
+        same = header.identity == ours.settings && header.shard == ours.shard;
         Err(EngineError::Merge { what: String::new() })
     };
     // always an error: ours, or that the file is none of ours
     let _ = container::read(path, u64::MAX, stop);
-    identity
+    same
 }
 
 fn same_run(r: &Record, p: &Provenance) -> bool {

@@ -1,6 +1,7 @@
 //! Where an image comes from: read from the identity of its job, so that a film on disk needs no scene to become an image.
 
 use crate::{Error, Plan, camera_matrices::CameraMatrices, units};
+use tyndall_engine::Shard;
 use tyndall_spectral::SpaceName;
 
 /// Names of the entries that the facade adds to a job's identity.
@@ -50,12 +51,14 @@ pub struct Provenance {
     pub band_edges: Vec<f32>,
     /// The camera's matrices.
     pub camera: CameraMatrices,
+    /// Part of the job, which tells films of its shards apart; no part of the job itself.
+    pub shard: Option<Shard>,
 }
 
 impl Provenance {
     /// Of a plan.
     pub fn of(plan: &Plan) -> Result<Self, Error> {
-        Self::from_identity(&plan.job.identity())
+        Ok(Self { shard: plan.job.shard, ..Self::from_identity(&plan.job.identity())? })
     }
 
     /// From a job's identity, see [`tyndall_engine::Job::identity`].
@@ -78,6 +81,7 @@ impl Provenance {
             units: entries.get(entry::UNITS)?.to_owned(),
             band_edges: entries.numbers(entry::BANDS)?,
             camera: CameraMatrices::from_numbers(&entries.array(entry::CAMERA)?),
+            shard: None,
         })
     }
 

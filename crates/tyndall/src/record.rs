@@ -29,6 +29,9 @@ pub struct Record {
     /// Mean samples per pixel that are in the image; an integer in the file where it is whole.
     #[serde(serialize_with = "integer_if_whole")]
     pub spp: f64,
+    /// Whether the job was done; false where the run was interrupted, or its time was up.
+    #[serde(default)]
+    pub complete: bool,
     /// Times \[s\].
     pub seconds: Seconds,
     /// Samples per second of rendering.
@@ -87,6 +90,8 @@ pub struct Circumstances {
     pub scene: Option<String>,
     /// Times \[s\].
     pub seconds: Seconds,
+    /// Whether the job is done.
+    pub complete: bool,
     /// Threads.
     pub threads: usize,
     /// All samples that were taken, those of a pilot included.
@@ -115,6 +120,7 @@ impl Record {
             wavelengths: p.wavelengths,
             resolution: film.spec().resolution,
             spp: film.samples() as f64 / area,
+            complete: c.complete,
             seconds: c.seconds,
             samples_per_second: if c.seconds.render > 0.0 {
                 c.samples as f64 / c.seconds.render

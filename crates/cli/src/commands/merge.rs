@@ -49,6 +49,7 @@ fn describe(merged: &Merged, summary: &ErrorSummary, provenance: &Provenance) ->
         command: command_line(),
         scene: None,
         seconds: Seconds { render: merged.millis as f64 * 1e-3, ..Seconds::default() },
+        complete: true,
         threads: 0,
         samples: merged.film.samples(),
     };

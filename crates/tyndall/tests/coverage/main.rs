@@ -8,7 +8,7 @@ mod measure;
 mod scenes;
 
 use measure::{Measured, Mode, measure};
-use scenes::{Case, cases};
+use scenes::{Case, closed_forms, fog};
 
 /// At least this many pixel-seed intervals a row.
 const INTERVALS: u32 = 2048;
@@ -49,12 +49,11 @@ fn check(case: &Case, mode: Mode, m: &Measured) {
     assert!(m.spent >= m.coverage, "{name}");
 }
 
-/// The cheap cases in closed form; the table has them all. In the built-in scene, whose tails are heavy, intervals from 64
-/// samples per pixel hold less often than they say (87 %): the manual tells.
+/// The cheap cases in closed form; the tables have them all.
 #[test]
 fn intervals_hold_what_they_say() {
     heading();
-    for case in cases(8, 1).iter().filter(|c| c.name.contains("slab")) {
+    for case in closed_forms(8).iter().filter(|c| c.name.contains("slab")) {
         for mode in [Mode::Conservative, Mode::Replicated] {
             check(case, mode, &row(case, mode, 64));
         }
@@ -64,7 +63,7 @@ fn intervals_hold_what_they_say() {
 #[test]
 fn intervals_of_adaptive_counts_hold_what_they_say() {
     heading();
-    let (case, mode) = (&cases(8, 1)[0], Mode::Until(0.04));
+    let (case, mode) = (&closed_forms(8)[0], Mode::Until(0.04));
     check(case, mode, &row(case, mode, 4096));
 }
 
@@ -72,7 +71,7 @@ fn intervals_of_adaptive_counts_hold_what_they_say() {
 #[ignore = "minutes; the short version runs always"]
 fn table() {
     heading();
-    for case in cases(16, 1 << 16) {
+    for case in closed_forms(16) {
         for spp in [16, 64, 256] {
             check(&case, Mode::Conservative, &row(&case, Mode::Conservative, spp));
             check(&case, Mode::Replicated, &row(&case, Mode::Replicated, spp));
@@ -81,4 +80,22 @@ fn table() {
             check(&case, Mode::Until(rel), &row(&case, Mode::Until(rel), 1 << 14));
         }
     }
+}
+
+/// Heavy tails: from 256 samples per pixel on, intervals hold as often as they say; from fewer they do not yet, as the manual
+/// tells.
+#[test]
+#[ignore = "minutes; the short version runs always"]
+fn table_of_heavy_tails() {
+    heading();
+    let case = fog(8, 1 << 17);
+    for mode in [Mode::Conservative, Mode::Replicated] {
+        for spp in [16, 64] {
+            assert!(row(&case, mode, spp).coverage < 0.95);
+        }
+        for spp in [256, 1024] {
+            check(&case, mode, &row(&case, mode, spp));
+        }
+    }
+    check(&case, Mode::Until(0.08), &row(&case, Mode::Until(0.08), 1 << 16));
 }

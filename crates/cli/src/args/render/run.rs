@@ -14,7 +14,7 @@ use crate::args::value::{Duration, Shard};
 #[command(next_help_heading = "Work")]
 pub struct RunArgs {
     /// Threads [default: what the machine, its cgroup included, allows]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
     /// Instructions to use; every set gives the same bits
     #[arg(long, value_enum, value_name = "SET", default_value_t = InstructionSet::Auto)]
@@ -35,6 +35,14 @@ pub struct RunArgs {
     /// share it
     #[arg(long, value_name = "FILE")]
     pub guide: Option<PathBuf>,
+}
+
+/// More threads than any machine runs at once.
+const MAX_THREADS: usize = 4096;
+
+fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.parse().ok().filter(|n: &NonZeroUsize| n.get() <= MAX_THREADS);
+    number.ok_or_else(|| format!("expected a number from 1 to {MAX_THREADS}, got `{text}`"))
 }
 
 /// Instructions to use.
@@ -97,7 +105,9 @@ mod tests {
     #[test]
     fn threads_are_positive() {
         assert_eq!(render("--threads 3").expect("valid").run.threads, NonZeroUsize::new(3));
-        assert!(render("--threads 0").is_err());
-        assert!(render("--threads -1").is_err());
+        for wrong in ["0", "-1", "x", "1000000", "4097"] {
+            let error = render(&format!("--threads={wrong}")).expect_err(wrong);
+            assert!(error.contains("from 1 to 4096"), "{error}");
+        }
     }
 }

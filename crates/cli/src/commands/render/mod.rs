@@ -1,5 +1,6 @@
 //! `tyndall render`.
 
+mod files;
 mod options;
 mod replay;
 mod tev;
@@ -7,14 +8,15 @@ mod watch;
 mod write;
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use miette::miette;
 use tyndall::engine::atomic::beside;
-use tyndall::engine::{Cancel, Checkpoints, End, Outcome};
+use tyndall::engine::{Cancel, Checkpoints, End, EngineError, Outcome};
 use tyndall::files::FileError;
 use tyndall::files::atomic::remove_stale_temporaries;
 use tyndall::image::error_path;
-use tyndall::{Error, Plan, Provenance, RunOptions, existing, memory, plan};
+use tyndall::{Error, Plan, Provenance, Record, RunOptions, existing, memory, plan};
 
 use super::{doubts, scene};
 use crate::args::value::{FileKind, ImageFile};
@@ -39,12 +41,13 @@ pub fn run(args: &RenderArgs, log: &LogArgs, console: &Console) -> Result<(), Fa
         return replay::run(&plan, pixel, sample, log);
     }
     let job = Job::new(args, plan)?;
+    job.check_files()?;
     job.announce();
     if job.is_done_already() {
         tracing::info!("the job is done: {}", job.names.images[0].display());
         return Ok(());
     }
-    job.refuse_to_replace()?;
+    job.refuse_to_replace().map_err(|failure| job.refusal_of_checkpoint().unwrap_or(failure))?;
     job.probe_folders()?;
     job.render(log, console)
 }
@@ -94,8 +97,9 @@ impl<'a> Job<'a> {
     /// A job that was resumed to its end leaves no checkpoint but its results.
     fn is_done_already(&self) -> bool {
         let gone = self.checkpoint().is_none_or(|c| !c.exists() && !beside(c, ".1").exists());
-        let mine = |p: &&Path| existing::belongs(p, &self.provenance);
-        self.args.run.resume && gone && self.names.images.iter().map(PathBuf::as_path).all(|p| mine(&p))
+        let complete = || Record::read(&self.names.run_json).is_some_and(|record| record.complete);
+        let mine = |path: &PathBuf| existing::belongs(path, &self.provenance);
+        self.args.run.resume && gone && complete() && self.names.images.iter().all(mine)
     }
 
     fn refuse_to_replace(&self) -> Result<(), Failure> {
@@ -103,6 +107,26 @@ impl<'a> Job<'a> {
             return Ok(());
         }
         Ok(self.results().iter().try_for_each(|path| existing::check(path, &self.provenance))?)
+    }
+
+    /// To whoever resumes, a checkpoint of another job says more than a result of another job: it tells what differs.
+    fn refusal_of_checkpoint(&self) -> Option<Failure> {
+        let path = self.checkpoint().filter(|_| self.args.run.resume)?;
+        let refused = Checkpoints::new(path, Duration::ZERO).load(&self.plan.job).err()?;
+        matches!(refused, EngineError::OtherJob { .. }).then(|| Failure::of(refused.into()))
+    }
+
+    /// No file of the run may be one that it reads, or another one of its own.
+    fn check_files(&self) -> Result<(), Failure> {
+        let scene = self.args.scene.iter().map(|path| ("the scene", path.clone()));
+        let guide = self.args.run.guide.iter().map(|path| ("the guide", path.clone()));
+        let read: Vec<_> = scene.chain(guide).collect();
+        let results = self.results().into_iter().map(|path| ("a result", path));
+        let states = self.checkpoint().into_iter().flat_map(|c| [c.to_path_buf(), beside(c, ".1")]);
+        let written: Vec<_> = results.chain(states.map(|path| ("a checkpoint", path))).collect();
+        files::check(&read, &written)?;
+        let replaced = self.checkpoint().filter(|_| !self.args.run.resume);
+        replaced.map_or(Ok(()), files::check_checkpoint)
     }
 
     /// Hours of work shall not end in a folder that cannot be written to.
@@ -128,7 +152,15 @@ impl<'a> Job<'a> {
         let outcome = tyndall::render(&self.plan, &run, &mut watcher);
         watcher.finish(outcome.as_ref().ok());
         let outcome = outcome?;
-        self.conclude(&outcome, &writer)?;
+        self.conclude(&outcome, &writer).map_err(|failure| match self.checkpoint() {
+            Some(path) if path.is_file() => {
+                let path = path.display();
+                failure.with_hint(&format!(
+                    "nothing is lost: {path} holds what was rendered, and --resume writes it"
+                ))
+            }
+            _ => failure,
+        })?;
         match outcome.end {
             End::Cancelled => Err(Failure::Interrupted),
             End::Complete => {
@@ -186,7 +218,7 @@ fn report_bad_samples(outcome: &Outcome) {
     }
     if d.clamped > 0 {
         tracing::warn!(
-            "the firefly clamp scaled {} samples down and removed a luminance of {:e}",
+            "the firefly clamp scaled {} samples down and removed a luminance of {:.3e}, summed over them",
             d.clamped,
             d.clamp_removed()
         );

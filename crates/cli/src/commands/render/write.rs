@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use tyndall::engine::{Outcome, shard};
+use tyndall::engine::{End, Outcome, shard};
+use tyndall::files::FileError;
 use tyndall::files::image::{ExrOptions, write_exr, write_png};
 use tyndall::film::{ErrorSummary, Film};
 use tyndall::image::error_path;
@@ -34,26 +35,43 @@ impl<'j> Writer<'j> {
             tracing::warn!("no sample was taken: no image is written");
             return Ok(None);
         }
-        self.images(film)?;
-        for file in self.job.files.iter().filter(|f| f.kind == FileKind::Film) {
-            if self.job.args.run.shard.is_some() && !outcome.state.position.is_finished() {
-                tracing::warn!("{}: not written, the shard is not finished", file.path.display());
-                continue;
-            }
-            shard::save(&file.path, &self.job.plan.job, &outcome.state).map_err(Error::from)?;
-        }
+        // one file that cannot be written is no reason to lose the others
+        let images = self.images(film);
+        let films = self.films(outcome);
+        images.and(films)?;
         let summary = film.summary();
         self.record(outcome, &summary).write(&self.job.names.run_json)?;
         Ok(Some(summary))
     }
 
-    /// The images, with the errors beside an EXR.
+    /// The images, with the errors beside an EXR: all that can be written. The record goes first, for it speaks of the images
+    /// beside it.
     pub fn images(&self, film: &Film) -> Result<(), Error> {
+        self.remove_record()?;
         let image = Image::of_film(film, &self.job.provenance)?;
-        for file in &self.job.files {
-            write_image(&image, &file.path, file.kind)?;
+        let written = self.job.files.iter().map(|file| write_image(&image, &file.path, file.kind));
+        written.fold(Ok(()), Result::and)
+    }
+
+    fn films(&self, outcome: &Outcome) -> Result<(), Error> {
+        let mut written = Ok(());
+        for file in self.job.files.iter().filter(|f| f.kind == FileKind::Film) {
+            if self.job.args.run.shard.is_some() && !outcome.state.position.is_finished() {
+                tracing::warn!("{}: not written, the shard is not finished", file.path.display());
+                continue;
+            }
+            let saved = shard::save(&file.path, &self.job.plan.job, &outcome.state);
+            written = written.and(saved.map_err(Error::from));
         }
-        Ok(())
+        written
+    }
+
+    fn remove_record(&self) -> Result<(), Error> {
+        let path = &self.job.names.run_json;
+        match std::fs::remove_file(path) {
+            Err(e) if path.is_file() => Err(FileError::io(path, "write", e).into()),
+            _ => Ok(()),
+        }
     }
 
     fn record(&self, outcome: &Outcome, summary: &ErrorSummary) -> Record {
@@ -64,6 +82,7 @@ impl<'j> Writer<'j> {
             command: command_line(),
             scene: Some(scene_name(job.args.scene.as_deref())),
             seconds: Seconds { load, build, render: position.millis as f64 * 1e-3 },
+            complete: outcome.end == End::Complete,
             threads: self.threads,
             samples: position.samples,
         };
