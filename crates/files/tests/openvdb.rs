@@ -231,9 +231,9 @@ fn file(spec: &Spec) -> Vec<u8> {
     grid.extend([text("class"), text("string"), text("fog volume")].concat());
     grid.extend(map(spec.map));
     grid.extend(topology(spec));
-    let blocks = at + grid.len() as u64;
     grid.extend(leaves(spec));
-    out.extend([at, blocks, at + grid.len() as u64].iter().flat_map(|v| v.to_le_bytes()));
+    // readers go on behind the tree, wherever the second place points
+    out.extend([at, at, at + grid.len() as u64].iter().flat_map(|v| v.to_le_bytes()));
     out.extend(grid);
     out
 }

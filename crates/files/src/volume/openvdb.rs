@@ -41,7 +41,6 @@ struct Entry {
     kind: String,
     parent: String,
     at: u64,
-    blocks: u64,
 }
 
 impl OpenVdb {
@@ -91,7 +90,7 @@ impl OpenVdb {
         let codec = values::Codec::read(&mut cursor)?;
         let metadata = metadata(&mut cursor)?;
         let to_world = map::affine(&mut cursor)?;
-        Grid::read(&mut cursor, entry.blocks, stored, codec, class(&metadata), to_world).map(Some)
+        Grid::read(&mut cursor, stored, codec, class(&metadata), to_world).map(Some)
     }
 }
 
@@ -134,8 +133,9 @@ fn table(cursor: &mut Cursor<'_>) -> Result<Vec<Entry>> {
         // a second grid of a name has its number behind a record separator
         let name = name.split('\u{1e}').next().unwrap_or_default().to_string();
         let (kind, parent) = (cursor.text()?, cursor.text()?);
-        let [at, blocks, end] = [cursor.u64()?, cursor.u64()?, cursor.u64()?];
-        grids.push(Entry { name, kind, parent, at, blocks });
+        // the values of leaves follow the tree; some writers give another place for them, which OpenVDB does not look at
+        let [at, _leaves, end] = [cursor.u64()?, cursor.u64()?, cursor.u64()?];
+        grids.push(Entry { name, kind, parent, at });
         cursor.seek(end)?;
     }
     Ok(grids)

@@ -26,10 +26,9 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Reads the tree at the cursor, and the values of its leaves from `blocks` on.
+    /// Reads the tree at the cursor, and the values of its leaves behind it.
     pub(super) fn read(
         cursor: &mut Cursor<'_>,
-        blocks: u64,
         stored: Stored,
         codec: Codec,
         class: Class,
@@ -50,7 +49,6 @@ impl Grid {
             active: [[i32::MAX; 3], [i32::MIN; 3]],
         };
         topology.root(cursor)?;
-        cursor.seek(blocks)?;
         let mut leaves = Vec::new();
         for origin in topology.origins {
             let mask = cursor.mask(512)?;
