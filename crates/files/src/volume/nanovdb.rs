@@ -184,5 +184,8 @@ fn foreign(magic: u64) -> String {
     if swapped {
         return "one with bytes in reverse order".into();
     }
+    if magic == super::openvdb::MAGIC {
+        return "an OpenVDB file".into();
+    }
     format!("{magic:#018x}")
 }
