@@ -20,14 +20,21 @@ pub struct Status {
     pub elapsed: Duration,
     /// Time that is left, once it can be told.
     pub left: Option<Duration>,
-    /// Samples per pixel so far, a mean where pixels differ.
-    pub spp: f64,
-    /// Samples per pixel at the end, if that is what ends the run.
-    pub spp_end: Option<u32>,
-    /// Camera samples per second, over all pixels.
-    pub samples_per_second: f64,
+    /// Samples of the picture; `None` where no picture is being made.
+    pub samples: Option<Samples>,
     /// Median over the pixels of the relative standard error of luminance, once it is known.
     pub median_rel_se: Option<f64>,
+}
+
+/// Samples of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Samples {
+    /// Per pixel so far, a mean where pixels differ.
+    pub spp: f64,
+    /// Per pixel at the end, if that is what ends the run.
+    pub end: Option<u32>,
+    /// Camera samples per second, over all pixels.
+    pub per_second: f64,
 }
 
 impl Status {
@@ -41,11 +48,13 @@ impl Status {
         if let Some(left) = self.left {
             add(format_args!("  {} left", clock(left)));
         }
-        match self.spp_end {
-            Some(end) => add(format_args!("  {:.0}/{end} spp", self.spp)),
-            None => add(format_args!("  {:.0} spp", self.spp)),
+        if let Some(Samples { spp, end, per_second }) = self.samples {
+            match end {
+                Some(end) => add(format_args!("  {spp:.0}/{end} spp")),
+                None => add(format_args!("  {spp:.0} spp")),
+            }
+            add(format_args!("  {}samples/s", with_prefix(per_second)));
         }
-        add(format_args!("  {}samples/s", with_prefix(self.samples_per_second)));
         if let Some(error) = self.median_rel_se {
             add(format_args!("  median error {} %", three_digits(100.0 * error)));
         }
@@ -117,9 +126,9 @@ fn write_log(form: LogFormat, status: &Status) {
             done = status.done,
             elapsed_s = status.elapsed.as_secs_f64(),
             left_s = status.left.map(|left| left.as_secs_f64()),
-            spp = status.spp,
-            spp_end = status.spp_end,
-            samples_per_second = status.samples_per_second,
+            spp = status.samples.map(|s| s.spp),
+            spp_end = status.samples.and_then(|s| s.end),
+            samples_per_second = status.samples.map(|s| s.per_second),
             median_rel_se_y = status.median_rel_se,
             "progress"
         ),
@@ -172,9 +181,7 @@ mod tests {
         done: 0.428,
         elapsed: Duration::from_secs(31),
         left: Some(Duration::from_secs(3723)),
-        spp: 27.0,
-        spp_end: Some(64),
-        samples_per_second: 1.92e6,
+        samples: Some(Samples { spp: 27.0, end: Some(64), per_second: 1.92e6 }),
         median_rel_se: Some(0.0213),
     };
 
@@ -186,8 +193,10 @@ mod tests {
 
     #[test]
     fn what_is_not_known_is_left_out() {
-        let status = Status { left: None, spp_end: None, median_rel_se: None, ..STATUS };
+        let samples = STATUS.samples.map(|s| Samples { end: None, ..s });
+        let status = Status { left: None, samples, median_rel_se: None, ..STATUS };
         assert_eq!(status.line(), " 42 %  0:31 elapsed  27 spp  1.92 Msamples/s");
+        assert_eq!(Status { samples: None, ..status }.line(), " 42 %  0:31 elapsed");
         assert!(Status { done: 0.9999, ..STATUS }.line().starts_with(" 99 %"), "not done before the end");
         assert!(Status { done: 1.0, ..STATUS }.line().starts_with("100 %"));
     }

@@ -294,6 +294,7 @@ mod tests {
     use super::*;
     use tyndall_base::vec::vec3;
     use tyndall_spectral::Curve;
+    use tyndall_testkit::{Rng, chi2_1d};
 
     #[test]
     fn cone_interval_holds_exactly_the_lit_points() {
@@ -319,6 +320,37 @@ mod tests {
                 let inside = interval.is_some_and(|(a, b)| t >= a && t <= b);
                 assert_eq!(inside, cos > spot.cos_end, "{o:?} {d:?} at {t}: {interval:?}");
             }
+        }
+    }
+
+    /// Distances in the lit part of a beam, near and far, across, along and against it.
+    #[test]
+    fn cone_limited_distances_follow_their_density() {
+        let spot = SpotLight::new(vec3(0.0, 3.0, 0.0), vec3(0.0, -1.0, 0.0), Curve::ONE.into(), 12.0, 4.0)
+            .expect("valid");
+        let light = Light::Spot(spot);
+        let rays = [
+            (vec3(-5.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0), 40.0),
+            (vec3(-5.0, -20.0, 0.3), vec3(1.0, 0.0, 0.0), 40.0),
+            (vec3(-0.3, 2.9, 0.0), vec3(1.0, 0.1, 0.0).normalize(), 40.0),
+            (vec3(0.02, 2.0, 0.0), vec3(0.0, -1.0, 0.0), 40.0),
+            (vec3(0.1, -6.0, 0.02), vec3(0.0, 1.0, 0.0), 40.0),
+            (vec3(0.0, 0.0, 0.3), vec3(0.6, 0.0, 0.8), 0.2),
+            (vec3(2.0, 0.0, 0.3), vec3(-0.6, 0.3, -0.2).normalize(), f32::INFINITY),
+        ];
+        for (o, d, t_max) in rays {
+            let segment =
+                Segment { o, d, t_max, sigma_t: 0.1, albedo: 0.9, mode: Equiangular::Auto, clip: true };
+            let lit = segment.lit(&light, vec3(0.0, 3.0, 0.0)).expect("the ray crosses the beam");
+            let (from, to) = (f64::from(lit.t0), f64::from(lit.t1));
+            assert!(to < 60.0, "{o:?} {d:?}: {lit:?}");
+            let draw = |rng: &mut Rng| {
+                let (t, pdf) = lit.sample(rng.f32());
+                assert!((pdf / lit.pdf(t) - 1.0).abs() < 1e-6, "{lit:?} at {t}");
+                Some(f64::from(t))
+            };
+            let pdf = |t: f64| f64::from(lit.pdf(t as f32));
+            chi2_1d(draw, pdf, [from, to], 200_000, 3).assert_ok(&format!("{o:?} {d:?}"), rays.len());
         }
     }
 }

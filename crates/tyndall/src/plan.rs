@@ -93,7 +93,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
     let method = loaded.integrator.method;
     let spectral = strategy::effective(options.spectral, method)?;
     strategy::check_method(method, &settings, &loaded.scene)?;
-    strategy::check_media(method, spectral, &loaded.scene)?;
+    strategy::check_media(method, spectral, &loaded)?;
     let pdf = strategy::density(options.wavelength_pdf, method);
     let wavelengths = strategy::sampler(&loaded, options, spectral, pdf)?;
     let lanes = strategy::lanes(method, spectral)?;

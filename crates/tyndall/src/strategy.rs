@@ -61,17 +61,24 @@ pub(crate) fn check_method(method: Method, settings: &Settings, scene: &Scene) -
 }
 
 /// What needs the optical depth in closed form.
-pub(crate) fn check_media(method: Method, spectral: Spectral, scene: &Scene) -> Result<(), Error> {
+pub(crate) fn check_media(method: Method, spectral: Spectral, loaded: &LoadedScene) -> Result<(), Error> {
     let asked = match (method, spectral) {
         (_, Spectral::Opaw { .. } | Spectral::Swc { .. }) => format!("--spectral {}", spectral.name()),
         (Method::WangChern, _) => "--integrator wang-chern".into(),
         _ => return Ok(()),
     };
-    if scene.media.iter().all(|m| matches!(m, Medium::Homogeneous(_))) {
-        return Ok(());
-    }
+    let media = loaded.media.iter().zip(&loaded.scene.media);
+    let varying: Vec<String> = media
+        .filter(|(_, m)| !matches!(m, Medium::Homogeneous(_)))
+        .map(|(name, _)| format!("\"{name}\""))
+        .collect();
+    let (named, vary) = match varying.len() {
+        0 => return Ok(()),
+        1 => ("the medium", "varies"),
+        _ => ("the media", "vary"),
+    };
     Err(Error::options(
-        format!("{asked}: expected homogeneous media, and one of the scene's varies in space"),
+        format!("{asked}: expected homogeneous media, and {named} {} {vary} in space", varying.join(", ")),
         Some("use --integrator volpath with --spectral hero or opow".into()),
     ))
 }

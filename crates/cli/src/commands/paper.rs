@@ -9,7 +9,7 @@ use tyndall::paper::{Effort, PaperOptions, Step, run as compute};
 use crate::args::{LogArgs, PaperArgs};
 use crate::exit::Failure;
 use crate::log::Console;
-use crate::progress::{Progress, Status};
+use crate::progress::{Progress, Samples, Status};
 use crate::signal;
 
 /// Runs the command.
@@ -39,11 +39,9 @@ pub fn run(args: &PaperArgs, log: &LogArgs, console: &Console) -> Result<(), Fai
         }
         progress.update(&status(step, start));
     });
-    progress.finish(&Status {
-        done: 1.0,
-        left: None,
-        ..status(&Step { name: String::new(), number: 1, count: 1, fraction: 0.0 }, start)
-    });
+    if result.is_ok() {
+        progress.finish(&status(&Step { done: 1.0, ..Step::default() }, start));
+    }
     match result {
         Err(_) if cancel.is_cancelled() => {
             tracing::warn!("interrupted; the same command goes on from here");
@@ -58,14 +56,6 @@ pub fn run(args: &PaperArgs, log: &LogArgs, console: &Console) -> Result<(), Fai
 }
 
 fn status(step: &Step, start: Instant) -> Status {
-    let done = ((step.number.max(1) - 1) as f64 + step.fraction) / step.count.max(1) as f64;
-    Status {
-        done,
-        elapsed: start.elapsed(),
-        left: None,
-        spp: 0.0,
-        spp_end: None,
-        samples_per_second: 0.0,
-        median_rel_se: None,
-    }
+    let samples = step.samples.map(|s| Samples { spp: s.spp, end: Some(s.end), per_second: s.per_second });
+    Status { done: step.done, elapsed: start.elapsed(), left: step.left, samples, median_rel_se: None }
 }

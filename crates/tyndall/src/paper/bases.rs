@@ -30,6 +30,8 @@ use tyndall_transport::MediumId;
 pub const COUNTS: [usize; 4] = [4, 8, 12, 16];
 /// Values at whole nanometres.
 const NODES: usize = 401;
+/// What the study of one path costs against a path of one wavelength, as timed.
+const COST: f64 = 5000.0;
 /// Coefficients of one cubic.
 const CUBIC: usize = 4;
 
@@ -52,6 +54,11 @@ pub struct Row {
 
 /// Factors of a path's contribution, from the lamp to the eye.
 type Factors = Vec<Values>;
+
+/// Cost of the study over so many paths, in paths of one wavelength.
+pub(super) fn cost(paths: usize) -> f64 {
+    COST * paths as f64
+}
 
 fn lambda(i: usize) -> f32 {
     RANGE.min + i as f32
@@ -305,7 +312,7 @@ pub(super) fn study(
             row("Peercy", &|p| reprojected(&peercy, &lamp, p));
             row("Raso and Fournier", &|p| reprojected(&raso, &lamp, p));
             row("point samples", &|p| sampled(&set, &lamp, p));
-            paper.tell(count as f64 / 16.0);
+            paper.tell(count as f64 / 16.0, None);
         }
     }
     Ok(rows)

@@ -7,17 +7,20 @@ mod bases;
 mod colour;
 mod figure6;
 mod page;
+mod progress;
 mod scenes;
 mod shots;
 mod sweep;
 mod tables;
 
 use crate::{Error, Spectral};
+use progress::Meter;
 use std::{fs, path::PathBuf};
 use tyndall_engine::Cancel;
 use tyndall_files::FileError;
 use tyndall_spectral::{Curve, illuminant, strategy::Rule};
 
+pub use progress::{Samples, Step};
 pub use scenes::{RANGE, Scene, write as write_scenes};
 pub use shots::{Shot, Taken};
 
@@ -65,42 +68,26 @@ pub struct PaperOptions {
     pub cancel: Cancel,
 }
 
-/// How far the command is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Step {
-    /// What is being computed.
-    pub name: String,
-    /// Number of the step, from 1.
-    pub number: usize,
-    /// Steps in all.
-    pub count: usize,
-    /// Part of the step that is done, 0 to 1.
-    pub fraction: f64,
-}
-
 /// A run of the command.
 pub(crate) struct Paper<'p> {
     options: &'p PaperOptions,
     scenes: PathBuf,
     work: PathBuf,
-    step: Step,
+    meter: Meter,
     watch: &'p mut dyn FnMut(&Step),
 }
 
 impl Paper<'_> {
-    fn begin(&mut self, name: impl Into<String>) {
-        self.step.name = name.into();
-        self.step.number += 1;
-        self.tell(0.0);
+    fn begin(&mut self, name: impl Into<String>, cost: f64) {
+        (self.watch)(self.meter.begin(name.into(), cost));
     }
 
-    fn tell(&mut self, fraction: f64) {
-        self.step.fraction = fraction;
-        (self.watch)(&self.step);
+    fn tell(&mut self, fraction: f64, samples: Option<Samples>) {
+        (self.watch)(self.meter.at(fraction, samples));
     }
 
     fn take(&mut self, shot: Shot) -> Result<Taken, Error> {
-        self.begin(shot.name.clone());
+        self.begin(shot.name.clone(), shot.cost());
         shot.take(self)
     }
 }
@@ -129,8 +116,7 @@ pub fn run(options: &PaperOptions, watch: &mut dyn FnMut(&Step)) -> Result<PathB
     let (scenes, work) = (options.folder.join("scenes"), options.folder.join(work_folder(options.effort)));
     fs::create_dir_all(&work).map_err(|e| FileError::io(&work, "create", e))?;
     scenes::write(&scenes)?;
-    let step = Step { name: String::new(), number: 0, count: 0, fraction: 0.0 };
-    let mut paper = Paper { options, scenes, work, step, watch };
+    let mut paper = Paper { options, scenes, work, meter: Meter::new(0, 1.0), watch };
     let results = compute(&mut paper)?;
     tables::write(&options.folder, &results)?;
     let page = options.folder.join("index.html");
@@ -150,8 +136,10 @@ fn compute(paper: &mut Paper<'_>) -> Result<Results, Error> {
     let effort = paper.options.effort;
     let (pictures, references) = (pictures(effort), references(effort));
     let (rendered, heroes) = (shots::figure_6(effort), heroes(effort));
+    let shots = || pictures.iter().chain(&references).chain(&rendered).chain(&heroes);
+    let (sweeps, study) = (2.0 * sweep::cost(effort), bases::cost(paths(effort)));
     // two sweeps and the study of bases come on top
-    paper.step.count = pictures.len() + references.len() + rendered.len() + heroes.len() + 3;
+    paper.meter = Meter::new(shots().count() + 3, shots().map(Shot::cost).sum::<f64>() + sweeps + study);
     let mut all = |shots: Vec<Shot>| shots.into_iter().map(|s| paper.take(s)).collect::<Result<Vec<_>, _>>();
     let pictures = all(pictures)?;
     let mut references = all(references.into())?.into_iter();
@@ -159,16 +147,24 @@ fn compute(paper: &mut Paper<'_>) -> Result<Results, Error> {
     let (rendered, heroes) = (all(rendered)?, all(heroes)?);
     let mut points = Vec::new();
     for (scene, fog) in [(Scene::ClearFlat, false), (Scene::FogFlat, true)] {
-        paper.begin(if fog { "spectra of the pixels, fog" } else { "spectra of the pixels, clear" });
+        paper.begin(
+            if fog { "spectra of the pixels, fog" } else { "spectra of the pixels, clear" },
+            sweep::cost(effort),
+        );
         let sweep = sweep::take(paper, scene)?;
         for (name, lamp) in &lamps()? {
             points.extend(figure6::points(&sweep, (name, lamp), fog)?);
         }
     }
-    paper.begin("bases over recorded paths");
-    let paths = if effort == Effort::Quick { 100 } else { 600 };
+    let paths = paths(effort);
+    paper.begin("bases over recorded paths", bases::cost(paths));
     let bases = bases::study(paper, &lamps()?, paths)?;
     Ok(Results { pictures, references, rendered, heroes, points, bases })
+}
+
+/// Paths that the study of bases records.
+const fn paths(effort: Effort) -> usize {
+    if let Effort::Quick = effort { 100 } else { 600 }
 }
 
 /// Daylight and a lamp of three narrow bands.
@@ -205,7 +201,7 @@ fn references(effort: Effort) -> [Shot; 2] {
 fn heroes(effort: Effort) -> Vec<Shot> {
     let one = |wavelengths| Shot {
         side: 64,
-        spp: if effort == Effort::Quick { 64 } else { 256 },
+        spp: if effort == Effort::Quick { 32 } else { 128 },
         ..Shot::clean(
             format!("hero-curve-{wavelengths}"),
             Scene::Fog,

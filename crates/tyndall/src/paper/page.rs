@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     Error,
-    page::{Axis, Chart, Document, Series, Table, png_image},
+    page::{Axis, Chart, Document, Series, Table, colour, png_image},
 };
 use tyndall_base::math::f64::ln;
 use tyndall_files::image::{Pixels, PngOptions, encode_png};
@@ -80,17 +80,16 @@ fn figure_4(page: &mut Document, effort: Effort, r: &Results) -> Result<(), Erro
         );
     }
     page.heading(3, "What they get wrong in colour");
-    let mut table = Table::new(["picture", "mean", "95th percentile", "worst"]);
+    let mut table = Table::new(["picture", "mean", "95th percentile", "worst", "mean of noise alone"]);
     for (name, d) in tables::colour_differences(r) {
         let name = if name == "hero-16" { "hero again (noise)".into() } else { name };
-        table.push(
-            [name, format!("{:.2}", d.mean), format!("{:.2}", d.high), format!("{:.2}", d.worst)],
-            false,
-        );
+        let numbers = [d.mean, d.high, d.worst, d.noise].map(|v| format!("{v:.2}"));
+        table.push(std::iter::once(name).chain(numbers), false);
     }
     page.table(&table);
     page.paragraph(
-        "CIEDE2000 against hero over blocks of 8 x 8 pixels, lamp left out; about 1 is just noticeable.",
+        "CIEDE2000 against hero over blocks of 8 x 8 pixels, lamp left out; about 1 is just noticeable. The last column is what the \
+         standard errors of both pictures would make of no difference at all: a picture whose mean lies close to it shows no error but noise.",
     );
     commands(page, r.pictures.iter().chain(&r.references));
     Ok(())
@@ -109,7 +108,7 @@ fn figure_5(page: &mut Document) {
         (380u16..=780).map(|nm| [f64::from(nm), f64::from(c.eval(f32::from(nm)))]).collect()
     };
     let chart =
-        Chart::new("Stand-in for figure 5", Axis::new("wavelength [nm]"), Axis::new("coefficient [1/m]"))
+        Chart::new("Stand-in for figure 5", Axis::new("wavelength [nm]").range(380.0, 780.0), Axis::new("coefficient [1/m]"))
             .with(Series::line("sigma_s", curve("fog-sigma-s.spd")))
             .with(Series::line("sigma_a", curve("fog-sigma-a.spd")));
     page.figure(
@@ -132,15 +131,12 @@ fn figure_6(page: &mut Document, r: &Results) {
         let (x, y) = axes();
         let mut chart = Chart::new(&format!("Fog, {lamp}, systematic part"), x, y);
         for which in [Rule::Midpoint, Rule::Endpoints] {
+            let told = |n: &u32| Some([f64::from(*n), predicted(lamp, true, which, *n)?]);
+            let (ours, predicted) = (systematic(r, lamp, true, which), SIZES.iter().filter_map(told).collect());
+            let colour = colour(usize::from(which == Rule::Endpoints));
             chart = chart
-                .with(Series::line(&format!("{} (ours)", rule(which)), systematic(r, lamp, true, which)))
-                .with(Series::dashed(
-                    &format!("{} (predicted)", rule(which)),
-                    SIZES
-                        .iter()
-                        .filter_map(|&n| Some([f64::from(n), predicted(lamp, true, which, n)?]))
-                        .collect(),
-                ));
+                .with(Series::line(&format!("{} (ours)", rule(which)), ours).colour(colour))
+                .with(Series::dashed(&format!("{} (predicted)", rule(which)), predicted).colour(colour));
         }
         charts.push((
             chart.to_svg(),

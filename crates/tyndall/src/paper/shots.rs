@@ -1,11 +1,12 @@
 //! Renders of the paper: what is rendered, how, and what is kept.
 
 use super::{
-    Effort, Paper,
+    Effort, Paper, Samples,
     scenes::{RANGE, RGB_EDGES, Scene, path},
 };
 use crate::{Error, Options, RunOptions, Source, Spectral, plan, render};
 use std::{fs, path::PathBuf, time::Duration};
+use tyndall_base::hash::mix64;
 use tyndall_engine::{Checkpoints, End, Progress, Sink};
 use tyndall_film::{Developed, ErrorMode};
 use tyndall_spectral::{LambdaRange, strategy::Rule};
@@ -50,8 +51,8 @@ impl Shot {
     pub fn paper(name: impl Into<String>, scene: Scene, effort: Effort, spectral: Spectral) -> Self {
         let size = spectral.set().map_or(80, |(n, _)| n);
         let (spp, light_sampling) = match effort {
-            Effort::Quick => (200, Some(true)),
-            Effort::Default => (1200, Some(true)),
+            Effort::Quick => (80, Some(true)),
+            Effort::Default => (400, Some(true)),
             Effort::Full => (PAPER_SPP * size, None),
         };
         let side = effort.side();
@@ -67,8 +68,8 @@ impl Shot {
         share: f64,
     ) -> Self {
         let spp = match effort {
-            Effort::Quick => 64.0,
-            Effort::Default => 512.0,
+            Effort::Quick => 32.0,
+            Effort::Default => 192.0,
             Effort::Full => 8192.0,
         };
         let spp = ((spp * share) as u32).max(16);
@@ -79,6 +80,18 @@ impl Shot {
     /// Paths that the render takes.
     pub fn paths(&self) -> f64 {
         f64::from(self.spp) * f64::from(self.side) * f64::from(self.side)
+    }
+
+    /// About what it costs, in paths of one wavelength by the paper's algorithm.
+    pub(super) fn cost(&self) -> f64 {
+        let medium = if matches!(self.scene, Scene::Clear | Scene::ClearFlat) { 0.35 } else { 1.0 };
+        let per_path = match self.spectral {
+            Spectral::Opow { .. } => 1.0,
+            Spectral::Hero { wavelengths } => 1.9 + 0.06 * f64::from(wavelengths),
+            Spectral::Swc { wavelengths } => 1.9 + 0.15 * f64::from(wavelengths),
+            Spectral::Opaw { set } => 0.04 * f64::from(set.0),
+        };
+        self.paths() * medium * per_path
     }
 
     fn range(&self) -> LambdaRange {
@@ -94,9 +107,16 @@ impl Shot {
             light_sampling: self.light_sampling,
             resolution: Some([self.side; 2]),
             band_edges: (self.scene == Scene::Rgb).then(|| RGB_EDGES.to_vec()),
+            seed: Some(self.seed()),
             errors: ErrorMode::REPLICATED,
             ..Options::default()
         }
+    }
+
+    /// Every render has its own, made from its name: renders that share random numbers share their noise, and a
+    /// difference between them would tell less of it than their standard errors say.
+    fn seed(&self) -> u64 {
+        self.name.bytes().fold(1, |h, b| mix64(h ^ u64::from(b))) % 100_000
     }
 
     /// The command that repeats it.
@@ -120,8 +140,11 @@ impl Shot {
             text += " --bands 380:764:128";
         }
         text + &format!(
-            " --spp {} --resolution {side}x{side} --range {}:{} --errors replicated",
-            self.spp, range.min, range.max
+            " --spp {} --resolution {side}x{side} --range {}:{} --errors replicated --seed {}",
+            self.spp,
+            range.min,
+            range.max,
+            self.seed()
         )
     }
 
@@ -141,11 +164,14 @@ impl Shot {
             checkpoints: Some(checkpoints),
             resume,
         };
-        let mut watch = Watch { paper, elapsed: 0.0 };
+        let mut watch = Watch { paper, elapsed: 0.0, end: plan.job.spp };
         let outcome = render(&plan, &run, &mut watch)?;
         let elapsed = watch.elapsed;
         if outcome.end == End::Cancelled {
             return Err(Error::options("interrupted", Some("the same command goes on from here".into())));
+        }
+        if outcome.samples == 0 {
+            watch.paper.meter.skip();
         }
         if let (Some(c), s) = (&run.checkpoints, &outcome.state) {
             c.save(&plan.job, &s.film, &s.guide, &s.position)?;
@@ -203,11 +229,13 @@ pub fn figure_6(effort: Effort) -> Vec<Shot> {
 struct Watch<'w, 'p> {
     paper: &'w mut Paper<'p>,
     elapsed: f64,
+    end: u32,
 }
 
 impl Sink for Watch<'_, '_> {
     fn progress(&mut self, progress: &Progress) {
         self.elapsed = progress.elapsed.as_secs_f64();
-        self.paper.tell(progress.fraction);
+        let (spp, per_second) = (progress.spp, progress.samples_per_second);
+        self.paper.tell(progress.fraction, Some(Samples { spp, end: self.end, per_second }));
     }
 }

@@ -18,6 +18,8 @@ use tyndall_spectral::strategy::Rule;
 const DEPTH: u32 = 16;
 /// Wavelengths: 380, 381 ... 780 nm.
 pub const NODES: usize = 401;
+/// What a path of all wavelengths costs against one of one wavelength, as timed.
+const COST: f64 = 250.0;
 /// Independent parts of the samples.
 pub const HALVES: usize = 2;
 
@@ -54,9 +56,15 @@ pub fn at(spectrum: &[f32], lambda: f64) -> f64 {
 fn size(effort: Effort) -> (u32, u32) {
     match effort {
         Effort::Quick => (32, 2),
-        Effort::Default => (64, 8),
+        Effort::Default => (64, 6),
         Effort::Full => (128, 32),
     }
+}
+
+/// Cost of a sweep, in paths of one wavelength.
+pub(super) fn cost(effort: Effort) -> f64 {
+    let (side, samples) = size(effort);
+    COST * HALVES as f64 * f64::from(side * side * samples)
 }
 
 fn sweep_plan(paper: &Paper<'_>, scene: Scene, side: u32) -> Result<Plan, Error> {
@@ -81,6 +89,7 @@ pub(super) fn take(paper: &mut Paper<'_>, scene: Scene) -> Result<Sweep, Error> 
         paper.work.join(format!("sweep-{}-{side}-{samples}.f32", scene.file().trim_end_matches(".pbrt")));
     let expected = HALVES * pixels * NODES;
     if let Some(data) = fs::read(&file).ok().filter(|b| b.len() == 4 * expected) {
+        paper.meter.skip();
         let number = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
         return Ok(Sweep { data: data.chunks_exact(4).map(number).collect(), pixels });
     }
@@ -127,7 +136,7 @@ fn render(
                 sweep.data[at..at + width].copy_from_slice(part);
             }
             rows += 1;
-            paper.tell(f64::from(rows) / f64::from(side));
+            paper.tell(f64::from(rows) / f64::from(side), None);
         }
     });
     if rows < side {

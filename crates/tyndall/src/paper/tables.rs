@@ -103,9 +103,9 @@ pub fn colour_differences(r: &Results) -> Vec<(String, colour::Difference)> {
 }
 
 fn differences(r: &Results) -> String {
-    let mut out = String::from("name,mean,percentile_95,worst\n");
+    let mut out = String::from("name,mean,percentile_95,worst,mean_of_noise_alone\n");
     for (name, d) in colour_differences(r) {
-        let _ = writeln!(out, "{name},{:.3},{:.3},{:.3}", d.mean, d.high, d.worst);
+        let _ = writeln!(out, "{name},{:.3},{:.3},{:.3},{:.3}", d.mean, d.high, d.worst, d.noise);
     }
     out
 }

@@ -35,13 +35,18 @@ pub fn pixel(path: &Path, x: u32, y: u32) -> Result<String, Error> {
         _ => Series::points("", points.clone()),
     };
     let title = format!("{name}, pixel {x},{y}");
-    let chart = Chart::new(&title, Axis::new("wavelength [nm]"), Axis::new(&format!("radiance [{unit}]")));
-    let line = match image.band_edges() {
-        Some(edges) if edges.len() == points.len() + 1 => {
+    let edges = image.band_edges().filter(|e| e.len() == points.len() + 1);
+    let ends = edges.as_ref().map_or([points[0][0], points[points.len() - 1][0]], |e| [e[0], e[e.len() - 1]]);
+    let wavelength = Axis::new("wavelength [nm]");
+    // one wavelength alone spans no axis
+    let wavelength = if ends[0] < ends[1] { wavelength.range(ends[0], ends[1]) } else { wavelength };
+    let chart = Chart::new(&title, wavelength, Axis::new(&format!("radiance [{unit}]")));
+    let line = match edges {
+        Some(edges) => {
             let values: Vec<f64> = points.iter().map(|p| p[1]).collect();
             Series::bins("", &edges, &values)
         }
-        _ => Series::line("", points),
+        None => Series::line("", points),
     };
     Ok(chart.with(line).with(series.colour("#000000")).to_svg())
 }

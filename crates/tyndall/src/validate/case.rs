@@ -41,6 +41,9 @@ pub struct Case {
     pub effort: u32,
     /// Whether paths meet the source by chance, so that analog walks see it.
     pub by_chance: bool,
+    /// Whether wavelengths may share every decision of a path: no extinction, phase function or index varies with
+    /// wavelength. Albedos and reflectances may.
+    pub grey: bool,
     /// The greatest contribution that is not rare, in the unit of the answers: `expected / brightest` is the share of paths
     /// that tell something.
     pub brightest: f64,
@@ -64,6 +67,7 @@ impl Case {
             max_depth: None,
             effort: 1,
             by_chance: true,
+            grey: false,
             brightest: 1.0,
         }
     }
@@ -111,6 +115,17 @@ impl Case {
         Self { by_chance: false, ..self }
     }
 
+    /// Grey but for albedos and reflectances.
+    #[must_use]
+    pub fn grey(self) -> Self {
+        Self { grey: true, ..self }
+    }
+
+    /// Whether the optical depth of every medium has a closed form.
+    pub fn homogeneous(&self) -> bool {
+        !self.text.contains("\"uniformgrid\"")
+    }
+
     /// The greatest contribution that is not rare.
     #[must_use]
     pub fn brightest(self, brightest: f64) -> Self {
@@ -126,6 +141,7 @@ impl Case {
             ),
             ("\"float lines\"", "spectral lines"),
             ("\"string equiangular\"", "switches of the integrator"),
+            ("\"string edge\"", "grids that keep their value up to their faces"),
         ];
         needs.iter().find(|(word, _)| self.text.contains(word)).map(|(_, why)| *why)
     }

@@ -67,7 +67,8 @@ pub struct Judged {
 
 /// Compares a render with what is known.
 pub fn judge(case: &Case, way: &Way, answers: &Answers, seconds: f64) -> Judged {
-    let per_row = answers.samples as f64 * f64::from(way.lanes()) / case.expected.len() as f64;
+    let per_row =
+        answers.samples as f64 * f64::from(way.lanes(case.bands.count)) / case.expected.len() as f64;
     let row = |i: usize| {
         let (ours, expected, own) = (answers.pooled.mean[i], case.expected[i], answers.pooled.se(i));
         let floor = (ROUNDING * expected.abs()).hypot(case.uncertainty);

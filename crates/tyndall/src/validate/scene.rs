@@ -8,6 +8,8 @@ pub const BLACK: &str = "Material \"diffuse\" \"spectrum reflectance\" [300 0 90
 pub const INTERFACE: &str = "Material \"interface\"";
 /// Lateral half-width of a slab of thickness 1.
 const WIDE: f64 = 2000.0;
+/// The sampler of all scenes, up to its number of samples.
+const SAMPLER: &str = "Sampler \"zsobol\" \"integer pixelsamples\" ";
 /// Number of scatterings that stands for no limit.
 const UNLIMITED: u32 = 1_000_000;
 
@@ -50,7 +52,7 @@ pub fn film(bands: &Bands) -> String {
     let range = bands.range();
     format!(
         "Film \"spectral\" \"integer nbuckets\" {} \"float lambdamin\" {} \"float lambdamax\" {} \"integer xresolution\" 4 \
-         \"integer yresolution\" 4\nPixelFilter \"box\"\nSampler \"zsobol\" \"integer pixelsamples\" 4096\n{}\n",
+         \"integer yresolution\" 4\nPixelFilter \"box\"\n{SAMPLER}4096\n{}\n",
         bands.count,
         range.min,
         range.max,
@@ -62,6 +64,11 @@ fn integrator(depth: u32) -> String {
     format!("Integrator \"volpath\" \"integer maxdepth\" {depth}")
 }
 
+/// The scene with independent random numbers.
+pub fn independent(text: &str) -> String {
+    text.replace(SAMPLER, &SAMPLER.replace("zsobol", "independent"))
+}
+
 /// The scene with `depth` as the most scatterings of a path.
 pub fn limited(text: &str, depth: u32) -> String {
     text.replace(&integrator(UNLIMITED), &integrator(depth))
@@ -69,13 +76,43 @@ pub fn limited(text: &str, depth: u32) -> String {
 
 /// A medium by its extinction per unit of length and albedo, band by band, plus further parameters.
 pub fn medium(bands: &Bands, name: &str, tau: &[f64], albedo: &[f64], more: &str) -> String {
+    let spectra = coefficients(bands, tau, albedo);
+    format!("MakeNamedMedium \"{name}\" \"string type\" \"homogeneous\"{spectra}{more}\n")
+}
+
+/// The same as a grid of `densities`, x fastest, that fills a box between two corners to its faces.
+pub fn grid(bands: &Bands, tau: &[f64], albedo: &[f64], voxels: &Voxels<'_>, more: &str) -> String {
+    let spectra = coefficients(bands, tau, albedo);
+    let Voxels { counts: [nx, ny, nz], densities, low, high } = voxels;
+    let text = |v: &[f64]| v.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+    format!(
+        "MakeNamedMedium \"m\" \"string type\" \"uniformgrid\" \"integer nx\" {nx} \"integer ny\" {ny} \"integer nz\" {nz} \
+         \"float density\" [{}] \"point3 p0\" [{}] \"point3 p1\" [{}] \"string edge\" \"clamp\"{spectra}{more}\n",
+        text(densities),
+        text(low),
+        text(high)
+    )
+}
+
+/// A grid of densities.
+#[derive(Clone, Copy, Debug)]
+pub struct Voxels<'d> {
+    /// Along x, y and z.
+    pub counts: [usize; 3],
+    /// One a voxel.
+    pub densities: &'d [f64],
+    /// Lower corner of the box.
+    pub low: [f64; 3],
+    /// Upper corner.
+    pub high: [f64; 3],
+}
+
+/// Coefficients by extinction and albedo.
+fn coefficients(bands: &Bands, tau: &[f64], albedo: &[f64]) -> String {
     let sigma_a: Vec<f64> = tau.iter().zip(albedo).map(|(t, w)| t * (1.0 - w)).collect();
     let sigma_s: Vec<f64> = tau.iter().zip(albedo).map(|(t, w)| t * w).collect();
     let (a, s) = (bands.step("sigma_a", &sigma_a), bands.step("sigma_s", &sigma_s));
-    format!(
-        "MakeNamedMedium \"{name}\" \"string type\" \"homogeneous\"{}{a}{s}{more}\n",
-        bands.interpolation()
-    )
+    format!("{}{a}{s}", bands.interpolation())
 }
 
 /// Henyey-Greenstein's g band by band (the directive needs [`Bands::interpolation`]); one number where all bands agree.
@@ -119,6 +156,16 @@ pub fn cuboid(low: [f64; 3], high: [f64; 3]) -> String {
     )
 }
 
+/// Densities of a slab whose optical thickness is that of density 1 all over: straight lines between the middles of four
+/// layers, one of them empty, and constant beyond the outermost middles.
+pub const UNEVEN: [f64; 4] = [0.5, 2.0, 0.0, 1.5];
+
+/// The medium of [`slab`] with the densities [`UNEVEN`] from the bottom to the top.
+pub fn uneven(bands: &Bands, tau: &[f64], albedo: &[f64], more: &str) -> String {
+    let (low, high) = ([-WIDE, -WIDE, -1.0], [WIDE, WIDE, 0.0]);
+    grid(bands, tau, albedo, &Voxels { counts: [1, 1, 4], densities: &UNEVEN, low, high }, more)
+}
+
 /// A wide box of medium from z = -1 to 0 with this boundary.
 pub fn slab(medium: &str, material: &str) -> String {
     layer(medium, material, [-1.0, 0.0], WIDE)
@@ -128,6 +175,16 @@ pub fn slab(medium: &str, material: &str) -> String {
 pub fn layer(medium: &str, material: &str, [low, high]: [f64; 2], half: f64) -> String {
     let shape = cuboid([-half, -half, low], [half, half, high]);
     format!("AttributeBegin\nMediumInterface \"{medium}\" \"\"\n{material}\n{shape}AttributeEnd\n")
+}
+
+/// The slab as two boxes of one medium each, side by side in front of the camera. A hair of a millionth lies between
+/// them, so that no ray meets two faces at once.
+pub fn halves(left: &str, right: &str) -> String {
+    let half = |name: &str, from: f64, to: f64| {
+        let shape = cuboid([from, -WIDE, -1.0], [to, WIDE, 0.0]);
+        format!("AttributeBegin\nMediumInterface \"{name}\" \"\"\n{INTERFACE}\n{shape}AttributeEnd\n")
+    };
+    half(left, -WIDE, -1e-6) + &half(right, 0.0, WIDE)
 }
 
 /// Wide layers without boundaries that bend light: from each height down there is this medium. Neighbours share one plane,

@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod flights;
 mod invariance;
 mod known;
 mod media;

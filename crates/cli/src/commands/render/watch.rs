@@ -10,7 +10,7 @@ use super::tev::Display;
 use super::write::Writer;
 use crate::args::LogArgs;
 use crate::log::Console;
-use crate::progress::{Progress, Status};
+use crate::progress::{Progress, Samples, Status};
 
 /// Watches a render.
 pub struct Watcher<'w> {
@@ -45,7 +45,9 @@ impl<'w> Watcher<'w> {
         let state = &outcome.state;
         let area = state.film.spec().bounds.area().max(1) as f64;
         self.status.elapsed = Duration::from_millis(state.position.millis);
-        self.status.spp = state.film.samples() as f64 / area;
+        let spp = state.film.samples() as f64 / area;
+        let last = self.status.samples.unwrap_or_default();
+        self.status.samples = Some(Samples { spp, ..last });
         self.status.left = None;
         if state.position.is_finished() {
             self.status.done = 1.0;
@@ -60,9 +62,7 @@ impl Sink for Watcher<'_> {
             done: p.fraction,
             elapsed: p.elapsed,
             left: p.remaining,
-            spp: p.spp,
-            spp_end: self.spp_end,
-            samples_per_second: p.samples_per_second,
+            samples: Some(Samples { spp: p.spp, end: self.spp_end, per_second: p.samples_per_second }),
             median_rel_se: p.errors.as_ref().map(|e| e.median_rel_se_y).filter(|e| e.is_finite()),
         };
         if let Some(progress) = &mut self.progress {

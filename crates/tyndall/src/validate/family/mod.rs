@@ -7,6 +7,7 @@ mod dispersion;
 mod emitting_slab;
 mod fresnel_slab;
 mod furnace;
+mod invariance;
 mod lambertian_ground;
 mod path_length;
 mod point_source;
@@ -15,6 +16,7 @@ mod slab_flux;
 mod slab_radiance;
 mod sphere;
 mod two_layers;
+mod varying;
 mod wide_slab;
 
 use super::{bands::Dialect, case::Case};
@@ -54,7 +56,7 @@ pub struct Family {
 }
 
 /// All families.
-pub const FAMILIES: [Family; 16] = [
+pub const FAMILIES: [Family; 18] = [
     beer_lambert::FAMILY,
     furnace::FAMILY,
     slab_flux::FAMILY,
@@ -71,4 +73,6 @@ pub const FAMILIES: [Family; 16] = [
     wide_slab::FAMILY,
     colorimetry::FAMILY,
     dispersion::FAMILY,
+    varying::FAMILY,
+    invariance::FAMILY,
 ];

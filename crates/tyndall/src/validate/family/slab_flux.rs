@@ -46,5 +46,23 @@ fn cases(dialect: Dialect) -> Vec<Case> {
             out.push(case("T", "T_total", scene::transmittance(&bands, cos, &medium, &slab)));
         }
     }
+    out.extend(grey(&all, dialect, &slab));
     out
+}
+
+/// The isotropic slabs of thickness 1, whose albedos alone differ.
+fn grey(all: &Table, dialect: Dialect, slab: &str) -> [Case; 2] {
+    let table = all.only("phase", "isotropic").only("tau", "1").only("mu0", "0.5");
+    let bands = Bands::of(table.len(), dialect);
+    let medium = medium_of(&bands, &table, "isotropic");
+    let case = |quantity: &str, column: &str, text: String| {
+        Case::new(format!("grey {quantity} mu=0.5"), bands, text, table.column(column))
+            .labels(table.labels(&["tau", "albedo"]))
+            .uncertainty(ROUNDING)
+            .grey()
+    };
+    [
+        case("R", "R", scene::reflectance(&bands, 0.5, &medium, slab)),
+        case("T", "T_total", scene::transmittance(&bands, 0.5, &medium, slab)),
+    ]
 }
