@@ -156,9 +156,8 @@ fn points_follow_their_density_per_solid_angle() {
         let group = ShapeGroup::from(case.shape.clone());
         let accel = build(vec![group.clone()]);
         let o = vec3(1.2, -0.8, 1.1);
-        let sample = |rng: &mut Rng| {
-            group.sample_solid_angle(0, o, rng.f32x2()).map(|s| parameters(case, &s))
-        };
+        let sample =
+            |rng: &mut Rng| group.sample_solid_angle(0, o, rng.f32x2()).map(|s| parameters(case, &s));
         let pdf = |uv: [f64; 2]| {
             let Some((hit, surface)) = met(case, &accel, uv) else { return 0.0 };
             // solid angle per unit of both parameters: n . (p - o) / |p - o|^3

@@ -42,7 +42,8 @@ pub fn difference(a: &Taken, b: &Taken) -> Difference {
             let (ea, eb) = (block(&a.error, side, bx, by).1, block(&b.error, side, bx, by).1);
             for draw in 0..DRAWS {
                 let key = mix64((by * side + bx) as u64) ^ u64::from(draw);
-                let moved = std::array::from_fn(|c| theirs[c] + ea[c].hypot(eb[c]) * normal(mix64(key) ^ c as u64));
+                let moved =
+                    std::array::from_fn(|c| theirs[c] + ea[c].hypot(eb[c]) * normal(mix64(key) ^ c as u64));
                 noise.push(delta_e_2000(in_lab(moved), in_lab(theirs)));
             }
         }

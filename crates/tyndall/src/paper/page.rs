@@ -107,10 +107,13 @@ fn figure_5(page: &mut Document) {
         let c = scenes::spectrum(name);
         (380u16..=780).map(|nm| [f64::from(nm), f64::from(c.eval(f32::from(nm)))]).collect()
     };
-    let chart =
-        Chart::new("Stand-in for figure 5", Axis::new("wavelength [nm]").range(380.0, 780.0), Axis::new("coefficient [1/m]"))
-            .with(Series::line("sigma_s", curve("fog-sigma-s.spd")))
-            .with(Series::line("sigma_a", curve("fog-sigma-a.spd")));
+    let chart = Chart::new(
+        "Stand-in for figure 5",
+        Axis::new("wavelength [nm]").range(380.0, 780.0),
+        Axis::new("coefficient [1/m]"),
+    )
+    .with(Series::line("sigma_s", curve("fog-sigma-s.spd")))
+    .with(Series::line("sigma_a", curve("fog-sigma-a.spd")));
     page.figure(
         &chart.to_svg(),
         "Scattering is greater from 400 to 550 nm, absorption from 600 to 780 nm, as in the paper; the curves themselves \
@@ -132,7 +135,8 @@ fn figure_6(page: &mut Document, r: &Results) {
         let mut chart = Chart::new(&format!("Fog, {lamp}, systematic part"), x, y);
         for which in [Rule::Midpoint, Rule::Endpoints] {
             let told = |n: &u32| Some([f64::from(*n), predicted(lamp, true, which, *n)?]);
-            let (ours, predicted) = (systematic(r, lamp, true, which), SIZES.iter().filter_map(told).collect());
+            let (ours, predicted) =
+                (systematic(r, lamp, true, which), SIZES.iter().filter_map(told).collect());
             let colour = colour(usize::from(which == Rule::Endpoints));
             chart = chart
                 .with(Series::line(&format!("{} (ours)", rule(which)), ours).colour(colour))
