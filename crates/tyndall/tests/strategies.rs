@@ -214,3 +214,43 @@ fn mixed_materials_and_dispersive_coats() {
     family.equal("wang-chern", &wang_chern(2048).seed(7).bands(&text), &truth);
     family.assert(0.06);
 }
+
+/// What needs the optical depth in closed form says which media have none, and what to use.
+#[test]
+fn media_that_vary_in_space_are_refused_by_name() {
+    let grid = |name: &str| {
+        format!(
+            "MakeNamedMedium \"{name}\" \"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2]{}{}{}\n",
+            BANDS.interpolation(),
+            BANDS.step("sigma_a", &TAU),
+            BANDS.step("sigma_s", &TAU)
+        )
+    };
+    let camera = scene::parallel_camera(&BANDS, -1.0);
+    let clear = scene::medium(&BANDS, "haze", &TAU, &ALBEDO, "");
+    let text = format!(
+        "{camera}WorldBegin\n{}{clear}{}{}{}",
+        scene::sky(Dialect::Own),
+        grid("smoke"),
+        grid("steam"),
+        scene::slab("smoke", scene::INTERFACE)
+    );
+    let set = (8, Rule::Midpoint);
+    let asked = [
+        ("volpath", Spectral::Swc { wavelengths: 8 }, "--spectral swc"),
+        ("volpath", Spectral::Opaw { set }, "--spectral opaw"),
+        ("wang-chern", Spectral::Opow { set: Some(set) }, "--integrator wang-chern"),
+    ];
+    for (integrator, spectral, name) in asked {
+        let options = tyndall::Options {
+            spectral,
+            range: BANDS.range(),
+            integrator: Some(integrator.into()),
+            ..tyndall::Options::default()
+        };
+        let source = tyndall::Source::Text("test.pbrt", &text, std::path::Path::new(""));
+        let error = tyndall::plan(source, &options).expect_err("refused").to_string();
+        assert!(error.contains(name) && error.contains("\"smoke\", \"steam\" vary"), "{error}");
+        assert!(!error.contains("haze"), "{error}");
+    }
+}
