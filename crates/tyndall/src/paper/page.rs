@@ -89,7 +89,7 @@ fn figure_4(page: &mut Document, effort: Effort, r: &Results) -> Result<(), Erro
     page.table(&table);
     page.paragraph(
         "CIEDE2000 against hero over blocks of 8 x 8 pixels, lamp left out; about 1 is just noticeable. The last column is what the \
-         standard errors of both pictures would make of no difference at all: a picture whose mean lies close to it shows no error but noise.",
+         standard errors of both pictures, those of R, G and B taken as independent, would make of no difference at all: a picture whose mean lies close to it shows no error but noise.",
     );
     commands(page, r.pictures.iter().chain(&r.references));
     Ok(())

@@ -42,7 +42,8 @@ pub struct Case {
     /// Whether paths meet the source by chance, so that analog walks see it.
     pub by_chance: bool,
     /// Whether wavelengths may share every decision of a path: no extinction, phase function or index varies with
-    /// wavelength. Albedos and reflectances may.
+    /// wavelength. Albedos and reflectances may by a little: OPAW's roulette goes by their mean m, and a wavelength of
+    /// albedo a with a^2 > m has no finite variance on paths without an end.
     pub grey: bool,
     /// The greatest contribution that is not rare, in the unit of the answers: `expected / brightest` is the share of paths
     /// that tell something.

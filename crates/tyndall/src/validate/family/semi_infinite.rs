@@ -29,7 +29,6 @@ fn cases(dialect: Dialect) -> Vec<Case> {
         Case::new(format!("R mu={mu}"), bands, text, table.column(&format!("plane_albedo_mu0_{mu}")))
             .labels(table.labels(&["albedo"]))
             .uncertainty(1e-6)
-            .grey()
     };
     ["1.0", "0.7", "0.3", "0.1"].map(case).into()
 }
