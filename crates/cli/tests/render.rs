@@ -25,7 +25,7 @@ fn the_record_has_exactly_its_keys() {
     place.ok(TINY);
     let record = place.json("cornell-fog.run.json");
     let keys = |v: &serde_json::Value| v.as_object().expect("an object").keys().cloned().collect::<Vec<_>>();
-    let expected = "version command scene scene_hash seed integrator spectral wavelengths resolution spp complete \
+    let expected = "version command scene scene_hash seed integrator spectral wavelengths resolution spp \
                     seconds samples_per_second threads error non_finite range_nm units";
     assert_eq!(keys(&record), expected.split_whitespace().collect::<Vec<_>>());
     assert_eq!(keys(&record["seconds"]), ["load", "build", "render"]);

@@ -29,8 +29,8 @@ pub struct Record {
     /// Mean samples per pixel that are in the image; an integer in the file where it is whole.
     #[serde(serialize_with = "integer_if_whole")]
     pub spp: f64,
-    /// Whether the job was done; false where the run was interrupted, or its time was up.
-    #[serde(default)]
+    /// Whether the job was done; false where the run was interrupted, or its time was up. Written only where it is false.
+    #[serde(default = "done", skip_serializing_if = "is_done")]
     pub complete: bool,
     /// Times \[s\].
     pub seconds: Seconds,
@@ -100,6 +100,15 @@ pub struct Circumstances {
 
 /// Every f64 below this is exact as an integer.
 const EXACT: f64 = 9_007_199_254_740_992.0;
+
+fn done() -> bool {
+    true
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_done(complete: &bool) -> bool {
+    *complete
+}
 
 fn integer_if_whole<S: Serializer>(v: &f64, s: S) -> Result<S::Ok, S::Error> {
     if v.fract() == 0.0 && v.abs() < EXACT { s.serialize_i64(*v as i64) } else { s.serialize_f64(*v) }
