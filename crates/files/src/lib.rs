@@ -13,6 +13,7 @@ mod limits;
 pub mod mesh;
 pub mod netcdf;
 pub mod photometry;
+pub mod tensor;
 pub mod volume;
 
 pub use error::{FileError, Place, Result};

@@ -460,7 +460,7 @@ impl<'s, const N: usize> Walk<'s, N> {
 /// Whether a surface parts the piece's wavelengths: a smooth boundary sends them different ways, or its value is known
 /// for one of them only.
 #[inline(always)]
-fn parts<const N: usize>(piece: &Piece<N>, bsdf: &Bsdf<N>) -> bool {
+fn parts<const N: usize>(piece: &Piece<N>, bsdf: &Bsdf<'_, N>) -> bool {
     if bsdf.wants_hero_only() {
         return true;
     }

@@ -50,6 +50,14 @@ pub enum ScatterError {
         /// The integral found.
         got: f64,
     },
+    /// Tables that make no sense together.
+    #[error("{what}: {why}")]
+    Unusable {
+        /// What they are for.
+        what: &'static str,
+        /// Why not.
+        why: String,
+    },
     /// A wrong spectrum.
     #[error(transparent)]
     Spectral(#[from] SpectralError),

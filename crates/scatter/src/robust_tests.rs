@@ -21,7 +21,7 @@ fn unit() -> impl Strategy<Value = f32> {
     prop_oneof![0.0_f32..1.0, Just(0.0_f32), Just(1.0_f32.next_down())]
 }
 
-fn surface() -> impl Strategy<Value = Bsdf<2>> {
+fn surface() -> impl Strategy<Value = Bsdf<'static, 2>> {
     let alpha = || prop_oneof![0.0_f32..1.0, 1e-3_f32..1e-2];
     (0..3, alpha(), alpha(), 0.3_f32..3.0, 0.3_f32..3.0, 0.0_f32..8.0).prop_map(
         |(kind, ax, ay, n0, n1, k)| {

@@ -6,7 +6,7 @@ use crate::sphere_tests::integrate;
 use tyndall_base::vec::vec3;
 use tyndall_testkit::{Rng, Welford};
 
-fn glass() -> Bsdf<4> {
+fn glass() -> Bsdf<'static, 4> {
     Bsdf::Dielectric(Dielectric::new(ETA, TrowbridgeReitz::SMOOTH))
 }
 
@@ -15,7 +15,7 @@ fn weight(s: &BsdfSample<4>) -> Spectrum<4> {
 }
 
 /// The two events of a smooth boundary: `uc` just at its ends.
-fn events(bsdf: &Bsdf<4>, wo: Vec3) -> Vec<BsdfSample<4>> {
+fn events(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> Vec<BsdfSample<4>> {
     let ends = [0.0, 1.0_f32.next_down()].map(|uc| bsdf.sample(wo, uc, [0.5; 2]).unwrap());
     if ends[0].wi == ends[1].wi { vec![ends[0]] } else { ends.to_vec() }
 }
@@ -110,7 +110,7 @@ fn spectral_mis(s: &BsdfSample<4>) -> [f64; 4] {
 }
 
 /// `bsdf` with lane `hero` in front.
-fn led_by(bsdf: &Bsdf<4>, hero: usize) -> Bsdf<4> {
+fn led_by<'m>(bsdf: &Bsdf<'m, 4>, hero: usize) -> Bsdf<'m, 4> {
     let Bsdf::Dielectric(mut b) = *bsdf else { panic!("a dielectric") };
     b.eta.0.swap(0, hero);
     Bsdf::Dielectric(b)
@@ -136,7 +136,8 @@ fn dispersion_with_spectral_mis_equals_one_wavelength_at_a_time() {
             }
         }
         for (k, got) in mean.into_iter().enumerate() {
-            let alone = Bsdf::<1>::Dielectric(Dielectric::new(Spectrum([ETA[k]]), TrowbridgeReitz::SMOOTH));
+            let alone =
+                Bsdf::<'_, 1>::Dielectric(Dielectric::new(Spectrum([ETA[k]]), TrowbridgeReitz::SMOOTH));
             let want: f64 = [0.0, 1.0_f32.next_down()]
                 .map(|uc| alone.sample(wo, uc, [0.5; 2]).unwrap())
                 .iter()

@@ -12,6 +12,7 @@ pub mod diffuse_transmission;
 pub mod flags;
 pub mod fresnel;
 pub mod hair;
+pub mod measured;
 pub mod microfacet;
 pub mod thin_dielectric;
 
@@ -22,6 +23,7 @@ pub use diffuse::Diffuse;
 pub use diffuse_transmission::DiffuseTransmission;
 pub use flags::BsdfFlags;
 pub use hair::Hair;
+pub use measured::{Measured, MeasuredTables};
 pub use microfacet::TrowbridgeReitz;
 pub use thin_dielectric::ThinDielectric;
 
@@ -80,7 +82,7 @@ impl<const N: usize> BsdfSample<N> {
 /// The models, matched once per call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Bsdf<const N: usize> {
+pub enum Bsdf<'m, const N: usize> {
     /// Lambertian reflection.
     Diffuse(Diffuse<N>),
     /// Lambertian reflection and transmission.
@@ -95,9 +97,11 @@ pub enum Bsdf<const N: usize> {
     Coated(Coated<N>),
     /// A fibre.
     Hair(Hair<N>),
+    /// Tables of a real surface.
+    Measured(Measured<'m, N>),
 }
 
-impl<const N: usize> Bsdf<N> {
+impl<const N: usize> Bsdf<'_, N> {
     /// BSDF `f(wo, wi)` \[1/sr\] per lane, without the cosine; zero for delta events.
     #[inline(always)]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Spectrum<N> {
@@ -109,6 +113,7 @@ impl<const N: usize> Bsdf<N> {
             Self::ThinDielectric(_) => Spectrum::ZERO,
             Self::Coated(b) => b.eval(wo, wi),
             Self::Hair(b) => b.eval_pdf(wo, wi).0,
+            Self::Measured(b) => b.eval_pdf(wo, wi).0,
         }
     }
 
@@ -123,6 +128,7 @@ impl<const N: usize> Bsdf<N> {
             Self::ThinDielectric(_) => Spectrum::ZERO,
             Self::Coated(b) => b.pdf(wo, wi),
             Self::Hair(b) => b.eval_pdf(wo, wi).1,
+            Self::Measured(b) => b.eval_pdf(wo, wi).1,
         }
     }
 
@@ -137,6 +143,7 @@ impl<const N: usize> Bsdf<N> {
             Self::ThinDielectric(_) => (Spectrum::ZERO, Spectrum::ZERO),
             Self::Coated(b) => (b.eval(wo, wi), b.pdf(wo, wi)),
             Self::Hair(b) => b.eval_pdf(wo, wi),
+            Self::Measured(b) => b.eval_pdf(wo, wi),
         }
     }
 
@@ -154,6 +161,7 @@ impl<const N: usize> Bsdf<N> {
             Self::ThinDielectric(b) => b.sample(wo, uc),
             Self::Coated(b) => b.sample(wo, uc, u),
             Self::Hair(b) => b.sample(wo, uc, u),
+            Self::Measured(b) => b.sample(wo, u),
         }
     }
 
@@ -168,6 +176,7 @@ impl<const N: usize> Bsdf<N> {
             Self::ThinDielectric(_) => ThinDielectric::<N>::FLAGS,
             Self::Coated(b) => b.flags(),
             Self::Hair(_) => Hair::<N>::FLAGS,
+            Self::Measured(_) => Measured::<N>::FLAGS,
         }
     }
 

@@ -13,7 +13,7 @@ pub(super) fn rough(alpha_x: f32, alpha_y: f32) -> TrowbridgeReitz {
 }
 
 /// Models with a density; `order` permutes the lanes, so that each can be the hero.
-pub(super) fn densities(order: [usize; 4]) -> Vec<(&'static str, Bsdf<4>)> {
+pub(super) fn densities(order: [usize; 4]) -> Vec<(&'static str, Bsdf<'static, 4>)> {
     let p = |s: [f32; 4]| Spectrum(order.map(|k| s[k]));
     let (reflectance, transmittance) = (p([0.2, 0.5, 0.9, 0.0]), p([0.7, 0.1, 0.0, 0.4]));
     let (eta, k) = (p([0.14, 0.4, 1.2, 1.5]), p([4.0, 2.4, 1.8, 7.0]));
@@ -170,7 +170,7 @@ fn rough_glass_loses_only_multiple_bounces() {
         let d = rough(alpha, 0.5 * alpha);
         for wo in directions() {
             for eta in [ETA[0], ETA[3]] {
-                let bsdf = Bsdf::<1>::Dielectric(Dielectric::new(Spectrum([eta]), d));
+                let bsdf = Bsdf::<'_, 1>::Dielectric(Dielectric::new(Spectrum([eta]), d));
                 let etap = if wo.z > 0.0 { eta } else { 1.0 / eta };
                 let total = integrate_finely(|wi| {
                     let squeeze = if wo.z * wi.z < 0.0 { etap * etap } else { 1.0 };

@@ -44,7 +44,12 @@ const LEAST_THICKNESS: f32 = 1e-6;
 impl CoatedMaterial {
     /// The BSDF at `at`; `seed` is new at every visit.
     #[inline(never)]
-    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>, seed: u64) -> Bsdf<N> {
+    pub fn bsdf<const N: usize>(
+        &self,
+        at: &TextureContext,
+        w: &Wavelengths<N>,
+        seed: u64,
+    ) -> Bsdf<'static, N> {
         let eta = self.eta.sample(w);
         let base = match &self.base {
             CoatedBase::Diffuse(m) => {

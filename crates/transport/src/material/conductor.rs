@@ -53,7 +53,7 @@ impl ConductorMaterial {
     }
 
     /// The BSDF at `at`.
-    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<N> {
+    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<'static, N> {
         Bsdf::Conductor(self.conductor(at, w))
     }
 }

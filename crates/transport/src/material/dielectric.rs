@@ -17,7 +17,7 @@ pub struct DielectricMaterial {
 impl DielectricMaterial {
     /// The BSDF at `at`.
     #[inline]
-    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<N> {
+    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<'static, N> {
         Bsdf::Dielectric(Dielectric::new(self.eta.sample(w), self.roughness.distribution(at)))
     }
 }
@@ -31,7 +31,7 @@ pub struct ThinDielectricMaterial {
 
 impl ThinDielectricMaterial {
     /// The BSDF.
-    pub fn bsdf<const N: usize>(&self, w: &Wavelengths<N>) -> Bsdf<N> {
+    pub fn bsdf<const N: usize>(&self, w: &Wavelengths<N>) -> Bsdf<'static, N> {
         Bsdf::ThinDielectric(ThinDielectric { eta: self.eta.sample(w) })
     }
 }

@@ -20,7 +20,7 @@ impl DiffuseMaterial {
 
     /// The BSDF at `at`.
     #[inline(always)]
-    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<N> {
+    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<'static, N> {
         Bsdf::Diffuse(Diffuse { reflectance: self.reflectance(at, w) })
     }
 }
@@ -49,7 +49,7 @@ impl DiffuseTransmissionMaterial {
     }
 
     /// The BSDF at `at`.
-    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<N> {
+    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<'static, N> {
         let (reflectance, transmittance) = self.both(at, w);
         Bsdf::DiffuseTransmission(DiffuseTransmission { reflectance, transmittance })
     }

@@ -41,7 +41,7 @@ pub struct HairMaterial {
 impl HairMaterial {
     /// The BSDF at `at`, where `uv.y` runs across the fibre.
     #[inline(never)]
-    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<N> {
+    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<'static, N> {
         let unit = |t: &FloatTexture| t.eval(at).clamp(1e-3, 1.0);
         let (beta_m, beta_n) = (unit(&self.beta_m), unit(&self.beta_n));
         let sigma_a = match &self.colour {

@@ -6,6 +6,7 @@ mod dielectric;
 mod diffuse;
 mod hair;
 mod mapped;
+mod measured;
 mod mix;
 mod roughness;
 
@@ -15,6 +16,7 @@ pub use dielectric::{DielectricMaterial, ThinDielectricMaterial};
 pub use diffuse::{DiffuseMaterial, DiffuseTransmissionMaterial};
 pub use hair::{HairColour, HairMaterial};
 pub use mapped::{MappedMaterial, Relief};
+pub use measured::MeasuredMaterial;
 pub use mix::MixMaterial;
 pub use roughness::Roughness;
 
@@ -41,6 +43,8 @@ pub enum Material {
     Coated(Box<CoatedMaterial>),
     /// Fibres.
     Hair(Box<HairMaterial>),
+    /// Tables of a real surface.
+    Measured(MeasuredMaterial),
     /// A material with a normal map or a bump map.
     Mapped(Box<MappedMaterial>),
     /// One of two materials, chosen at random; the scene chooses at the hit, so that no path gets here.
@@ -50,7 +54,7 @@ pub enum Material {
 impl Material {
     /// The shading frame (z = shading normal) and the BSDF at a surface point.
     #[inline(always)]
-    pub fn shade<const N: usize>(&self, s: &SurfacePoint, w: &Wavelengths<N>) -> (Frame, Bsdf<N>) {
+    pub fn shade<const N: usize>(&self, s: &SurfacePoint, w: &Wavelengths<N>) -> (Frame, Bsdf<'_, N>) {
         if let Self::Mapped(m) = self {
             return (m.frame(s), m.material.bsdf(s, w));
         }
@@ -58,7 +62,7 @@ impl Material {
     }
 
     #[inline(always)]
-    fn bsdf<const N: usize>(&self, s: &SurfacePoint, w: &Wavelengths<N>) -> Bsdf<N> {
+    fn bsdf<const N: usize>(&self, s: &SurfacePoint, w: &Wavelengths<N>) -> Bsdf<'_, N> {
         let at = TextureContext { p: s.p, n: s.ng, uv: s.uv };
         match self {
             Self::Diffuse(m) => m.bsdf(&at, w),
@@ -68,6 +72,7 @@ impl Material {
             Self::ThinDielectric(m) => m.bsdf(w),
             Self::Coated(m) => m.bsdf(&at, w, seed(s, w)),
             Self::Hair(m) => m.bsdf(&at, w),
+            Self::Measured(m) => m.bsdf(w),
             Self::Mapped(_) | Self::Mix(_) => black(),
         }
     }
@@ -82,6 +87,7 @@ impl Material {
             Self::Dielectric(_) | Self::ThinDielectric(_) => Spectrum::ONE,
             Self::Coated(m) => m.albedo(&at, w),
             Self::Hair(m) => m.albedo(&at, w),
+            Self::Measured(m) => m.albedo(w),
             Self::Mapped(m) => m.material.albedo(s, w),
             Self::Mix(_) => Spectrum::ZERO,
         }
@@ -97,6 +103,6 @@ fn seed<const N: usize>(s: &SurfacePoint, w: &Wavelengths<N>) -> u64 {
 
 /// What materials are that lie within themselves: readers build none.
 #[inline(never)]
-fn black<const N: usize>() -> Bsdf<N> {
+fn black<const N: usize>() -> Bsdf<'static, N> {
     Bsdf::Diffuse(tyndall_scatter::bsdf::Diffuse { reflectance: Spectrum::ZERO })
 }

@@ -1,7 +1,7 @@
 //! `Material` and `MakeNamedMaterial`: classes and their parameters.
 
 use super::{
-    Made, coated, hair,
+    Made, coated, hair, measured,
     parts::{albedo, conductor, eta, roughness},
     relief, subsurface,
 };
@@ -87,13 +87,14 @@ pub(super) fn material(
         "coateddiffuse" => Some(Material::Coated(Box::new(coated::diffuse(ctx, p, textures)?))),
         "coatedconductor" => Some(Material::Coated(Box::new(coated::conductor(ctx, p, textures)?))),
         "hair" => Some(Material::Hair(Box::new(hair::hair(ctx, p, textures)?))),
+        "measured" => Some(Material::Measured(measured::material(ctx, p)?)),
         "subsurface" => {
             filling = Some(subsurface::medium(ctx, p)?);
             let (eta, roughness) = (eta(ctx, p, "eta", 1.33)?, roughness(p, textures, "")?);
             Some(Material::Dielectric(DielectricMaterial { eta, roughness }))
         }
         other => {
-            let hint = "known are diffuse, diffusetransmission, conductor, dielectric, thindielectric, coateddiffuse, coatedconductor, subsurface, hair, mix and interface";
+            let hint = "known are diffuse, diffusetransmission, conductor, dielectric, thindielectric, coateddiffuse, coatedconductor, subsurface, hair, measured, mix and interface";
             return Err(p.error(format!("material \"{other}\" is not supported")).hint(hint));
         }
     };

@@ -3,6 +3,7 @@
 mod class;
 mod coated;
 mod hair;
+mod measured;
 mod parts;
 mod relief;
 mod subsurface;
