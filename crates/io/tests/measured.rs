@@ -3,7 +3,7 @@
 
 use std::path::Path;
 use tyndall_io::{LoadOptions, LoadedScene, load_text};
-use tyndall_transport::Material;
+use tyndall_transport::material::Material;
 
 /// A field: name, shape, values.
 type Field = (&'static str, Vec<usize>, Vec<f32>);
