@@ -10,9 +10,8 @@ type Field = (&'static str, Vec<usize>, Vec<f32>);
 
 /// A material over two polar angles and three wavelengths that reflects the same everywhere.
 fn fields() -> Vec<Field> {
-    let filled = |name, shape: &[usize], value: f32| {
-        (name, shape.to_vec(), vec![value; shape.iter().product()])
-    };
+    let filled =
+        |name, shape: &[usize], value: f32| (name, shape.to_vec(), vec![value; shape.iter().product()]);
     vec![
         ("phi_i", vec![1], vec![0.0]),
         ("theta_i", vec![2], vec![0.0, 1.5]),
@@ -26,7 +25,8 @@ fn fields() -> Vec<Field> {
 }
 
 fn tensor(fields: &[Field]) -> Vec<u8> {
-    let heads: usize = fields.iter().map(|(name, shape, _)| 2 + name.len() + 2 + 1 + 8 + 8 * shape.len()).sum();
+    let heads: usize =
+        fields.iter().map(|(name, shape, _)| 2 + name.len() + 2 + 1 + 8 + 8 * shape.len()).sum();
     let mut at = 18 + heads;
     let mut out = b"tensor_file\0\x01\0".to_vec();
     out.extend((fields.len() as u32).to_le_bytes());
