@@ -67,7 +67,9 @@ impl Bands {
     pub fn cliff(&self, name: &str, values: &[f64]) -> String {
         assert_eq!(values.len(), self.count, "{name}: one value a band");
         let edges = self.edges();
-        let piece = |(i, v): (usize, &f64)| format!("{} {v} {} {v}", edges[i], edges[i + 1].next_down());
+        // the last piece holds its end, so that the table covers the range of the film
+        let end = |i: usize| if i + 1 == self.count { edges[i + 1] } else { edges[i + 1].next_down() };
+        let piece = |(i, v): (usize, &f64)| format!("{} {v} {} {v}", edges[i], end(i));
         let text: Vec<String> = values.iter().enumerate().map(piece).collect();
         format!(" \"spectrum {name}\" [{}]", text.join(" "))
     }

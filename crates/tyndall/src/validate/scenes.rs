@@ -62,8 +62,17 @@ fn remarks(family: &Family, case: &Case, why: Option<&str>) -> String {
         Measured::Xyz => "X, Y, Z with light of Y = 1",
     };
     format!(
-        "# {}: {}\n# known: {}\n{format}\n# answer = {} + {} x (mean over the image of {quantity}); expected.csv lists the answers\n",
-        family.title, case.name, family.source, case.offset, case.factor
+        "# {}: {}\n# known: {}\n{format}\n# range {} to {} nm; by tyndall: --range {}:{}\n\
+         # answer = {} + {} x (mean over the image of {quantity}); expected.csv lists the answers\n",
+        family.title,
+        case.name,
+        family.source,
+        case.range.min,
+        case.range.max,
+        case.range.min,
+        case.range.max,
+        case.offset,
+        case.factor
     )
 }
 
@@ -80,5 +89,27 @@ fn rows(table: &mut String, scene: &str, case: &Case, plain: bool) {
             "\"{scene}\",{plain},{quantity},{from},{to},\"{label}\",{expected:e},{:e},{},{}",
             case.uncertainty, case.offset, case.factor
         );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Options, Source, load, validate::FAMILIES};
+
+    /// Whatever is written can be read again over the range that it tells.
+    #[test]
+    fn scenes_load_in_both_dialects() {
+        for family in &FAMILIES {
+            for dialect in [Dialect::Own, Dialect::Pbrt] {
+                let cases = (family.cases)(dialect);
+                let plain = |c: &&Case| dialect == Dialect::Own || c.beyond_pbrt().is_none();
+                for case in cases.iter().filter(plain) {
+                    let options = Options { range: case.range, ..Options::default() };
+                    let loaded = load(Source::Text(&case.name, &case.text, Path::new("")), &options);
+                    assert!(loaded.is_ok(), "{}: {}: {:?}", family.name, case.name, loaded.err());
+                }
+            }
+        }
     }
 }
