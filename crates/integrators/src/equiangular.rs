@@ -8,11 +8,11 @@
 //! followed by light sampling, and a free flight followed by a scattering that happens to meet the light.
 
 use crate::{
-    glow::{Glow, mixed},
     medium::Inside,
     observer::PathObserver,
     settings::{Equiangular, Settings},
     shadow::{End, Place, shadow},
+    steer::{Steering, mixed},
     weight::{PathWeight, divide},
 };
 use tyndall_base::{Vec3, warp};
@@ -283,8 +283,9 @@ fn connect<const N: usize>(
     // densities of the three techniques, lane by lane
     let flight = inside.collision_density(t, settings);
     let by_light = scene.lights.pmf_at(x, Vec3::ZERO, id) * light.pdf_li(&scene.accel, x, wi, &y.target);
-    let glow = Glow::in_medium(at.lamp, x, inside, w);
-    let by_chance = if light.is_hidden() { Spectrum::ZERO } else { mixed(glow.as_ref(), phase, wi) * s.r_u };
+    let steering = Steering::in_medium((scene, settings), at.lamp, x, inside, w);
+    let by_chance =
+        if light.is_hidden() { Spectrum::ZERO } else { mixed(steering.as_ref(), phase, wi) * s.r_u };
     let r = weight.r_u * (s.r_l * technique + flight * (s.r_l * by_light + by_chance));
     Some(divide(weight.beta * f * s.t * l, r))
 }

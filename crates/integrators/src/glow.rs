@@ -1,30 +1,29 @@
 //! Directions drawn towards the glow around a light.
 //!
 //! In a medium the light that has scattered once comes from everywhere around a lamp, with a radiance that falls as
-//! about `1 / sin(theta)` with the angle from it (the airlight integral of `1 / d^2` along a ray). A direction is drawn
-//! from the phase function or BSDF, or with probability `share` from a density that follows this glow; the density of
-//! the mixture enters all weights:
+//! about `1 / sin(theta)` with the angle from it (the airlight integral of `1 / d^2` along a ray). [`crate::steer`] mixes
+//! a density that follows this glow with that of the scattering:
 //!
 //! ```text
-//! p(w) = (1 - share) p_scatter(w) + share / (4 pi |w - l|),   l the unit direction to the lamp
+//! p(w) = 1 / (4 pi |w - l|),   l the unit direction to the lamp
 //! ```
 //!
 //! One point on one light attracts a whole path; given that point the mixture is a density like any other, so nothing
-//! has to be summed over lights.
+//! has to be summed over lights. Where light has been learned ([`tyndall_transport::guiding`]) nothing is assumed of it.
 
 use crate::{medium::Inside, settings::Settings};
 use tyndall_base::{Vec3, warp};
 use tyndall_geometry::Frame;
-use tyndall_scatter::{bsdf::BsdfFlags, phase::PhaseFunction};
-use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_scatter::phase::PhaseFunction;
+use tyndall_spectral::Wavelengths;
 use tyndall_transport::{Scene, sampler::PathSampler};
 
 /// Share of the glow where it is clearest: near a lamp, with isotropic scattering. Flat between 0.3 and 0.7.
 const SHARE: f32 = 0.5;
 /// Optical distance from the lamp beyond which light has scattered too often to tell where it came from.
 const CLEAR: f32 = 2.0;
-/// Share where the phase function is a table or a peak, whose mean cosine is not at hand.
-const PEAKED: f32 = 0.1;
+/// Openness where the phase function is a table or a peak, whose mean cosine is not at hand.
+const PEAKED: f32 = 0.2;
 /// Keeps the density finite on the axis, where rounding decides the chord.
 const MIN_CHORD: f32 = 1e-6;
 
@@ -58,7 +57,7 @@ impl Glow {
         inside: &Inside<'_, N>,
         w: &Wavelengths<N>,
     ) -> Option<Self> {
-        Self::new(lamp?, p, inside, share(inside.phase, w))
+        Self::new(lamp?, p, inside, SHARE * openness(inside.phase, w))
     }
 
     /// From a point `p` of a surface in a medium, whose normal on the side of the path is `n`: for diffuse reflection
@@ -68,12 +67,8 @@ impl Glow {
         lamp: Option<Vec3>,
         p: Vec3,
         n: Vec3,
-        flags: BsdfFlags,
         inside: Option<&Inside<'_, N>>,
     ) -> Option<Self> {
-        if flags != BsdfFlags::DIFFUSE | BsdfFlags::REFLECTION {
-            return None;
-        }
         Self::new(lamp?, p, inside?, SHARE).filter(|g| g.axis.dot(n) > 0.0)
     }
 
@@ -92,57 +87,37 @@ impl Glow {
         Some(Self { axis: to * (1.0 / d), share: share * clear * clear })
     }
 
-    /// Density of the mixture at `wi`, where the scattering alone has `pdf`.
-    #[inline(always)]
-    fn mix<const N: usize>(&self, pdf: Spectrum<N>, wi: Vec3) -> Spectrum<N> {
-        let chord = (wi - self.axis).length().max(MIN_CHORD);
-        pdf * (1.0 - self.share) + Spectrum::splat(self.share * warp::pdf_chord(chord))
+    /// Towards the unit direction `axis`.
+    #[cfg(test)]
+    pub(crate) fn towards(axis: Vec3, share: f32) -> Self {
+        Self { axis, share }
     }
 
-    /// A direction of the glow when `u` says so; else `u` is what the scattering has left to draw from.
+    /// Probability with which directions are drawn towards it.
     #[inline(always)]
-    pub fn sample(&self, u: &mut [f32; 2]) -> Option<Vec3> {
-        if u[0] < self.share {
-            u[0] /= self.share;
-            return Some(Frame::from_z(self.axis).from_local(warp::sample_chord(*u)));
-        }
-        u[0] = ((u[0] - self.share) / (1.0 - self.share)).min(1.0 - 0.5 * f32::EPSILON);
-        None
+    pub fn share(&self) -> f32 {
+        self.share
+    }
+
+    /// Density of `wi` \[1/sr\].
+    #[inline(always)]
+    pub fn pdf(&self, wi: Vec3) -> f32 {
+        warp::pdf_chord((wi - self.axis).length().max(MIN_CHORD))
+    }
+
+    /// A direction of the glow.
+    #[inline(always)]
+    pub fn sample(&self, u: [f32; 2]) -> Vec3 {
+        Frame::from_z(self.axis).from_local(warp::sample_chord(u))
     }
 }
 
-/// Share for a phase function: the narrower it is, the more it has to say itself.
+/// 1 where a phase function leaves all directions open: the narrower it is, the more it has to say itself.
 #[inline(always)]
-fn share<const N: usize>(phase: &PhaseFunction, w: &Wavelengths<N>) -> f32 {
+pub fn openness<const N: usize>(phase: &PhaseFunction, w: &Wavelengths<N>) -> f32 {
     match phase {
-        PhaseFunction::Isotropic | PhaseFunction::Rayleigh(_) => SHARE,
-        PhaseFunction::HenyeyGreenstein(p) => SHARE * (1.0 - p.g().sample(w).map(f32::abs).mean()),
+        PhaseFunction::Isotropic | PhaseFunction::Rayleigh(_) => 1.0,
+        PhaseFunction::HenyeyGreenstein(p) => 1.0 - p.g().sample(w).map(f32::abs).mean(),
         _ => PEAKED,
-    }
-}
-
-/// Density of `wi` where a glow may compete with a scattering of density `pdf`.
-#[inline(always)]
-pub fn mixed<const N: usize>(glow: Option<&Glow>, pdf: Spectrum<N>, wi: Vec3) -> Spectrum<N> {
-    glow.map_or(pdf, |g| g.mix(pdf, wi))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use tyndall_base::vec::vec3;
-    use tyndall_testkit::{Rng, chi2_sphere};
-
-    #[test]
-    fn directions_follow_the_density_of_the_mixture() {
-        let glow = Glow { axis: vec3(1.0, 2.0, -0.5).normalize(), share: SHARE };
-        let isotropic = Spectrum::<1>::splat(warp::pdf_uniform_sphere());
-        let draw = |rng: &mut Rng| {
-            let mut u = rng.f32x2();
-            let wi = glow.sample(&mut u).unwrap_or_else(|| warp::sample_uniform_sphere(u));
-            Some(wi.to_array())
-        };
-        let pdf = |[x, y, z]: [f32; 3]| f64::from(glow.mix(isotropic, vec3(x, y, z)).hero());
-        chi2_sphere(draw, pdf, 200_000, 7).assert_ok("mixture of glow and sphere", 1);
     }
 }

@@ -4,6 +4,7 @@ use crate::{
     analog,
     isa::{Isa, Set},
     layers::{Layers, Recorder},
+    learn::learn,
     observer::PathObserver,
     opaw::{self, AllWavelengths},
     settings::Settings,
@@ -14,7 +15,7 @@ use tyndall_base::vec::vec2;
 use tyndall_film::{Channels, Guide, Pass, Patch, PixelFilter, WorkUnit};
 use tyndall_geometry::Ray;
 use tyndall_spectral::{Spectrum, WavelengthSampler, Wavelengths};
-use tyndall_transport::{Scene, camera::CameraSample, sampler::PathSampler};
+use tyndall_transport::{Scene, camera::CameraSample, guiding::Field, sampler::PathSampler};
 
 /// The path integrator to run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -157,6 +158,25 @@ impl Pass for PixelPass {
 }
 
 impl PixelPass {
+    /// Where light comes from, for images of `resolution`; `None` where the settings do not ask for it or there is nothing
+    /// to learn (see [`crate::learn`]).
+    pub fn learned(&self, resolution: [u32; 2]) -> Option<Field> {
+        let steers = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero);
+        let learn = || learn(&self.scene, &self.settings, &self.wavelengths, &self.channels, resolution);
+        if steers { learn() } else { None }
+    }
+
+    /// The pass with what it can learn.
+    ///
+    /// # Panics
+    /// When the scene has another owner, too.
+    #[must_use]
+    pub fn learning(mut self, resolution: [u32; 2]) -> Self {
+        let field = self.learned(resolution);
+        Arc::get_mut(&mut self.scene).expect("the pass alone has the scene").guiding = field;
+        self
+    }
+
     /// Every version runs the same operations; layers have the portable one alone.
     fn dispatch<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
         if !self.layers.is_empty() {

@@ -14,6 +14,18 @@ pub enum Equiangular {
     Always,
 }
 
+/// When paths are guided by what was learned of the light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Guiding {
+    /// Never.
+    Off,
+    /// Where all media are thin: in thick ones the glow around a light tells as much.
+    #[default]
+    Auto,
+    /// Wherever anything was learned.
+    Always,
+}
+
 /// How a path integrator works. Defaults are what ships.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -40,6 +52,8 @@ pub struct Settings {
     pub cone_clipping: bool,
     /// Draw directions towards the glow around a light in a medium, too.
     pub glow: bool,
+    /// Learn where light comes from before the first sample, and draw directions from that, too.
+    pub guiding: Guiding,
     /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
     pub roulette_depth: u32,
     /// A path of throughput below this is at risk.
@@ -60,6 +74,7 @@ impl Default for Settings {
             equiangular_depth: u32::MAX,
             cone_clipping: true,
             glow: true,
+            guiding: Guiding::Auto,
             roulette_depth: 1,
             roulette_threshold: 0.25,
         }

@@ -5,9 +5,14 @@
 //! numbers again with other passengers give the same path, so that a sample yields a spectrum whose noise is common
 //! to all wavelengths: what depends on wavelength alone, such as the error of a quadrature, is seen through it.
 //!
-//! The settings must be without roulette, equiangular sampling and glow, which look at the passengers.
+//! The settings must be without roulette, equiangular sampling, glow and guiding, which look at the passengers.
 
-use crate::{pixel::PixelPass, settings::Equiangular, volpath, weight::PathWeight};
+use crate::{
+    pixel::PixelPass,
+    settings::{Equiangular, Guiding},
+    volpath,
+    weight::PathWeight,
+};
 use tyndall_spectral::{Spectrum, Wavelengths};
 
 /// Guides, and passengers of one path.
@@ -22,7 +27,10 @@ impl PixelPass {
     /// With settings whose decisions would depend on the passengers, or `out` of another length than `nodes`.
     pub fn spectrum(&self, x: u32, y: u32, sample: u32, nodes: &[f32], out: &mut [f32]) {
         let s = &self.settings;
-        let steady = s.roulette_depth == u32::MAX && s.equiangular == Equiangular::Off && !s.glow;
+        let steady = s.roulette_depth == u32::MAX
+            && s.equiangular == Equiangular::Off
+            && !s.glow
+            && s.guiding == Guiding::Off;
         assert!(steady, "passengers must not decide");
         assert_eq!(nodes.len(), out.len(), "one value a node");
         for (nodes, out) in nodes.chunks(GUIDES).zip(out.chunks_mut(GUIDES)) {
@@ -33,7 +41,8 @@ impl PixelPass {
                 weight.r_u[k] = 0.0;
             }
             let (ray, first) = (start.ray, start.first_distance);
-            let l = volpath::li_from(&self.scene, s, weight, ray, first, &w, &mut start.sampler, &mut ());
+            let at = (weight, self.scene.camera_medium);
+            let l = volpath::li_from(&self.scene, s, at, ray, first, &w, &mut start.sampler, &mut ());
             // the mean of the densities was taken over all lanes, of which half count
             let share = start.exposure * (GUIDES as f32 / LANES as f32);
             for (k, o) in out.iter_mut().enumerate() {

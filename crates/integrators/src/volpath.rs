@@ -10,11 +10,12 @@ mod varying;
 use crate::{
     direct::{self, Rival, Scatterer},
     equiangular::{self, Segment},
-    glow::{self, Glow, mixed},
+    glow,
     medium::Inside,
     observer::{Event, PathObserver, Vertex},
     settings::{Equiangular, Settings},
     shadow::Place,
+    steer::{Steering, mixed},
     weight::{PathWeight, divide},
 };
 use tyndall_base::{Vec3, warp};
@@ -37,15 +38,16 @@ pub fn li<const N: usize>(
     sampler: &mut PathSampler,
     seen: &mut impl PathObserver<N>,
 ) -> Spectrum<N> {
-    li_from(scene, settings, PathWeight::START, ray, first, w, sampler, seen)
+    li_from(scene, settings, (PathWeight::START, scene.camera_medium), ray, first, w, sampler, seen)
 }
 
-/// The same with another weight at the camera: lanes whose density there is zero are carried by the others.
+/// The same with another weight, whose lanes of density zero are carried by the others, and in another medium than those
+/// at the camera.
 #[inline(always)]
 pub fn li_from<const N: usize>(
     scene: &Scene,
     settings: &Settings,
-    weight: PathWeight<N>,
+    (weight, medium): (PathWeight<N>, MediumId),
     ray: Ray,
     first: f32,
     w: &Wavelengths<N>,
@@ -59,8 +61,8 @@ pub fn li_from<const N: usize>(
         ray,
         previous: ray.o,
         facing: Vec3::ZERO,
-        medium: scene.camera_medium,
-        inside: Inside::of(scene, scene.camera_medium, w),
+        medium,
+        inside: Inside::of(scene, medium, w),
         weight,
         rival: None,
         lamp: glow::lamp(scene, settings, sampler),
@@ -264,7 +266,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.scattered_widely = true;
 
         let wo = -self.ray.d;
-        let glow = Glow::in_medium(self.lamp, p, inside, self.w);
+        let steering = Steering::in_medium((self.scene, self.settings), self.lamp, p, inside, self.w);
         if self.settings.light_sampling {
             let medium = self.medium;
             let vertex = Scatterer {
@@ -273,7 +275,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                 spawn: |_| (p, medium),
                 eval: |wi| {
                     let phase = inside.phase.eval(wo, wi, self.w);
-                    (phase, mixed(glow.as_ref(), phase, wi))
+                    (phase, mixed(steering.as_ref(), phase, wi))
                 },
                 rival: self.rival,
                 known: Place { medium, inside: Some(inside), time: self.ray.time },
@@ -282,13 +284,13 @@ impl<'s, const N: usize> Walk<'s, N> {
         }
         let u = sampler.next_2d();
         let mut u = [u.x, u.y];
-        let (wi, phase) = if let Some(wi) = glow.and_then(|g| g.sample(&mut u)) {
+        let (wi, phase) = if let Some(wi) = steering.and_then(|s| s.sample(&mut u)) {
             (wi, inside.phase.eval(wo, wi, self.w))
         } else {
             let s = inside.phase.sample(wo, u, self.w);
             (s.wi, s.p)
         };
-        if !self.weight.scatter(phase, mixed(glow.as_ref(), phase, wi), false) {
+        if !self.weight.scatter(phase, mixed(steering.as_ref(), phase, wi), false) {
             return false;
         }
         self.ray = Ray { time: self.ray.time, ..Ray::new(p, wi) };
@@ -345,7 +347,15 @@ impl<'s, const N: usize> Walk<'s, N> {
         (self.previous, self.facing) = (isect.surface.p, isect.surface.ng);
 
         let n = if wo.z < 0.0 { -frame.z } else { frame.z };
-        let glow = Glow::on_surface(self.lamp, isect.surface.p, n, bsdf.flags(), self.inside.as_ref());
+        let inside = self.inside.as_ref();
+        let steering = Steering::on_surface(
+            (self.scene, self.settings),
+            self.lamp,
+            isect.surface.p,
+            n,
+            bsdf.flags(),
+            inside,
+        );
         if self.settings.light_sampling && !bsdf.is_delta() {
             let (medium, inside) = (self.medium, self.inside);
             let vertex = Scatterer {
@@ -354,7 +364,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                 spawn: |wi| (isect.surface.origin(wi), isect.medium_towards(wi, medium)),
                 eval: |wi| {
                     let local = frame.to_local(wi);
-                    (bsdf.eval(wo, local) * local.z.abs(), mixed(glow.as_ref(), bsdf.pdf(wo, local), wi))
+                    (bsdf.eval(wo, local) * local.z.abs(), mixed(steering.as_ref(), bsdf.pdf(wo, local), wi))
                 },
                 rival: None,
                 known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
@@ -365,13 +375,13 @@ impl<'s, const N: usize> Walk<'s, N> {
         let u = sampler.next_2d();
         let mut u = [u.x, u.y];
         let wi;
-        if let Some(towards) = glow.and_then(|g| g.sample(&mut u)) {
+        if let Some(towards) = steering.and_then(|s| s.sample(&mut u)) {
             wi = towards;
             let local = frame.to_local(wi);
             self.scattered_widely = true;
             if !self.weight.scatter(
                 bsdf.eval(wo, local) * local.z.abs(),
-                mixed(glow.as_ref(), bsdf.pdf(wo, local), wi),
+                mixed(steering.as_ref(), bsdf.pdf(wo, local), wi),
                 false,
             ) {
                 return false;
@@ -381,7 +391,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             wi = frame.from_local(s.wi);
             let delta = s.flags.contains(BsdfFlags::DELTA);
             self.scattered_widely |= !delta;
-            let pdf = mixed(glow.as_ref(), s.pdf, wi);
+            let pdf = mixed(steering.as_ref(), s.pdf, wi);
             if !self.weight.scatter(s.f * s.wi.z.abs(), pdf, delta) {
                 return false;
             }

@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod error;
+pub mod guiding;
 pub mod ids;
 pub mod light;
 pub mod material;

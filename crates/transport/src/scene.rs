@@ -2,6 +2,7 @@
 
 use crate::{
     camera::{Camera, Orthographic, Projective},
+    guiding::Field,
     ids::{LightId, MaterialId, MediumId},
     light::LightSet,
     material::Material,
@@ -66,6 +67,8 @@ pub struct Scene {
     pub has_alpha: bool,
     /// Some material is a mix of others.
     pub has_mixes: bool,
+    /// Where light comes from, if that was learned: steers paths, moves no mean.
+    pub guiding: Option<Field>,
 }
 
 /// A surface point as a path meets it.
@@ -115,6 +118,7 @@ impl Scene {
             has_boundaries: false,
             has_alpha: false,
             has_mixes: false,
+            guiding: None,
         }
     }
 

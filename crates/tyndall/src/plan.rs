@@ -132,7 +132,8 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         seed,
         replicates,
         isa: isa(options.dispatch)?,
-    };
+    }
+    .learning(loaded.film.resolution);
     let integrator = loaded.integrator.name.clone();
     Ok(Plan { loaded, pass, job, range: options.range, spectral, notes, integrator, channels })
 }

@@ -5,6 +5,7 @@ use crate::{
     direct::Scatterer,
     observer::{Event, PathObserver},
     shadow::Place,
+    steer::{Steering, mixed},
     tracking::{Collision, Flight, Traveller, fly},
 };
 use tyndall_base::Vec3;
@@ -67,6 +68,7 @@ impl<'s, const N: usize> Walk<'s, N> {
 
         let wo = -self.ray.d;
         let scattering = &collision.scattering;
+        let steering = Steering::in_mixture((self.scene, self.settings), p, scattering, self.w);
         if self.settings.light_sampling {
             let (medium, inside) = (self.medium, self.inside);
             let vertex = Scatterer {
@@ -75,7 +77,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                 spawn: |_| (p, medium),
                 eval: |wi| {
                     let phase = scattering.eval(wo, wi, self.w);
-                    (phase, phase)
+                    (phase, mixed(steering.as_ref(), phase, wi))
                 },
                 rival: None,
                 known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
@@ -84,11 +86,17 @@ impl<'s, const N: usize> Walk<'s, N> {
         }
         let uc = sampler.next_1d();
         let u = sampler.next_2d();
-        let Some(s) = scattering.sample(wo, uc, [u.x, u.y], self.w) else { return false };
-        if !self.weight.scatter(s.p, s.p, false) {
+        let mut u = [u.x, u.y];
+        let (wi, phase) = if let Some(wi) = steering.and_then(|s| s.sample(&mut u)) {
+            (wi, scattering.eval(wo, wi, self.w))
+        } else {
+            let Some(s) = scattering.sample(wo, uc, u, self.w) else { return false };
+            (s.wi, s.p)
+        };
+        if !self.weight.scatter(phase, mixed(steering.as_ref(), phase, wi), false) {
             return false;
         }
-        self.ray = Ray { time: self.ray.time, ..Ray::new(p, s.wi) };
+        self.ray = Ray { time: self.ray.time, ..Ray::new(p, wi) };
         self.survives(sampler)
     }
 }

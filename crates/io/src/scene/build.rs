@@ -210,6 +210,7 @@ pub fn build(
         has_boundaries,
         has_alpha,
         has_mixes: materials.table.iter().any(|m| matches!(m, Material::Mix(_))),
+        guiding: None,
         shapes: groups.bindings,
         materials: materials.table,
         media: media.table,

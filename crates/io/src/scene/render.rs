@@ -4,7 +4,7 @@ use super::{
     collect::{Collected, Declared},
     context::{Context, refuse},
 };
-use tyndall_integrators::{Equiangular, Settings, pixel::Method};
+use tyndall_integrators::{Equiangular, Guiding, Settings, pixel::Method};
 use tyndall_pbrt::{EntityKind, Error, OptionValue, ParamSet};
 use tyndall_transport::{light::Selection, sampler::SamplerKind};
 
@@ -107,6 +107,7 @@ const KNOWN: &[&str] = &[
     "coneclipping",
     "roulettedepth",
     "glow",
+    "guiding",
     "roulettethreshold",
     "samplebsdf",
     "samplelights",
@@ -194,10 +195,23 @@ fn settings(p: &ParamSet, method: Method) -> Result<Settings, Error> {
         equiangular,
         cone_clipping: p.bool("coneclipping", default.cone_clipping)?,
         glow: p.bool("glow", default.glow)?,
+        guiding: guiding(p)?,
         roulette_depth: if p.bool("russianroulette", true)? { roulette } else { u32::MAX },
         roulette_threshold: threshold,
         ..default
     })
+}
+
+fn guiding(p: &ParamSet) -> Result<Guiding, Error> {
+    match p.string("guiding", "auto")?.as_str() {
+        "auto" => Ok(Guiding::Auto),
+        "off" => Ok(Guiding::Off),
+        "always" => Ok(Guiding::Always),
+        other => {
+            let got = format!("\"{other}\"");
+            Err(refuse(p, "guiding", "must be \"auto\", \"off\" or \"always\"", got))
+        }
+    }
 }
 
 /// Negative stands for no limit.

@@ -7,6 +7,7 @@
 mod area;
 mod bounds;
 mod distant;
+mod emit;
 mod goniometric;
 mod image;
 mod infinite;
@@ -19,6 +20,7 @@ mod tree;
 
 pub use area::{AreaExtra, AreaLight};
 pub use distant::DistantLight;
+pub use emit::Particle;
 pub use goniometric::{GoniometricLight, PhotometricWeb, Profile};
 pub use image::{EnvironmentImage, ImageInfiniteLight, RgbEmission, sphere_to_square, square_to_sphere};
 pub use infinite::UniformInfiniteLight;

@@ -2,7 +2,7 @@
 
 use tyndall::{
     Options, Spectral, WavelengthPdf,
-    integrators::{Equiangular, Settings},
+    integrators::{Equiangular, Guiding, Settings},
     transport::sampler::SamplerKind,
 };
 
@@ -41,7 +41,8 @@ pub const TECHNIQUES: &[Variant] = &[
     settings("equiangular off", "small-lamp", |s| s.equiangular = Equiangular::Off),
     settings("equiangular always", "cloud-box", |s| s.equiangular = Equiangular::Always),
     settings("equiangular on first segments only", "small-lamp", |s| s.equiangular_depth = 0),
-    settings("glow off", "fog-box", |s| s.glow = false),
+    settings("guiding off", "beam", |s| s.guiding = Guiding::Off),
+    settings("guiding and glow off", "fog-box", |s| (s.guiding, s.glow) = (Guiding::Off, false)),
     settings("cone clipping off", "beam", |s| s.cone_clipping = false),
     settings("roulette off", "dark-fog", |s| s.roulette_depth = u32::MAX),
     settings("independent sampler", "empty-box", |s| s.sampler = SamplerKind::Independent),

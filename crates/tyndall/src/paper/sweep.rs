@@ -11,7 +11,7 @@ use super::{
 use crate::{Error, Options, Plan, Source, Spectral, plan};
 use std::{fs, sync::mpsc, thread};
 use tyndall_files::FileError;
-use tyndall_integrators::Equiangular;
+use tyndall_integrators::{Equiangular, Guiding};
 use tyndall_spectral::strategy::Rule;
 
 /// Scatterings of a path, without roulette.
@@ -77,7 +77,8 @@ fn sweep_plan(paper: &Paper<'_>, scene: Scene, side: u32) -> Result<Plan, Error>
     };
     let mut plan = plan(Source::File(&path(&paper.scenes, scene)), &options)?;
     let s = &mut plan.pass.settings;
-    (s.roulette_depth, s.equiangular, s.glow) = (u32::MAX, Equiangular::Off, false);
+    (s.roulette_depth, s.equiangular) = (u32::MAX, Equiangular::Off);
+    (s.glow, s.guiding) = (false, Guiding::Off);
     Ok(plan)
 }
 

@@ -38,7 +38,8 @@ pub fn render(scene: &SmallScene, variant: &Variant, effort: u32, seed: u64) -> 
     let mut plan = plan(Source::Text(scene.name, scene.text, Path::new("")), &options)
         .unwrap_or_else(|e| panic!("{}: {}: {e}", scene.name, variant.name));
     (variant.settings)(&mut plan.pass.settings);
-    let film = film(&plan.pass, &plan.job);
+    let pass = plan.pass.learning(plan.job.film.resolution);
+    let film = film(&pass, &plan.job);
     assert!(film.diagnostics().is_clean(), "{}: {}: {:?}", scene.name, variant.name, film.diagnostics());
     regions(&film.develop())
 }

@@ -1,7 +1,10 @@
 //! Ways to render the same picture.
 
 use crate::scenes::SmallScene;
-use tyndall::{Options, Spectral, WavelengthPdf, integrators::Equiangular, integrators::Settings};
+use tyndall::{
+    Options, Spectral, WavelengthPdf,
+    integrators::{Equiangular, Guiding, Settings},
+};
 use tyndall_spectral::strategy::Rule;
 use tyndall_transport::sampler::SamplerKind;
 
@@ -58,7 +61,9 @@ const EVERYWHERE: &[Variant] = &[
     with_settings("equiangular off", |s| s.equiangular = Equiangular::Off, 1),
     with_settings("equiangular always", |s| s.equiangular = Equiangular::Always, 1),
     with_settings("equiangular on first segments", |s| s.equiangular_depth = 0, 1),
-    with_settings("glow off", |s| s.glow = false, 1),
+    with_settings("guiding always", |s| s.guiding = Guiding::Always, 1),
+    with_settings("guiding off", |s| s.guiding = Guiding::Off, 1),
+    with_settings("guiding and glow off", |s| (s.guiding, s.glow) = (Guiding::Off, false), 1),
     with_settings("roulette off", |s| s.roulette_depth = u32::MAX, 1),
     with_settings("fierce roulette", |s| (s.roulette_depth, s.roulette_threshold) = (0, 1.5), 2),
     with_settings("independent sampler", |s| s.sampler = SamplerKind::Independent, 1),
