@@ -3,9 +3,9 @@
 //! The grid's space has voxels of edge 1 from 0 to n. Beyond the outermost centres pbrt-v4's grids fade to zero over half
 //! a voxel ([`Edge::Fade`]): at the border they have half their value. [`Edge::Clamp`] holds the outermost values.
 
-use super::{Density, Extrema, split, trilinear};
+use super::{Density, Extrema, bounds_of, cells_of, reach, split, trilinear};
 use crate::{TransportError, error::check, media::majorant::Cells};
-use tyndall_base::{Vec3, vec::vec3};
+use tyndall_base::Vec3;
 use tyndall_geometry::Bounds3;
 
 /// What lies beyond the outermost centres of voxels.
@@ -62,28 +62,6 @@ impl Dense {
     }
 }
 
-/// Cells of 2^k voxels, at least 16 of them along the longest axis where there are so many voxels, and k at most 3.
-pub(crate) fn cells_of(dims: [usize; 3]) -> Cells {
-    let longest = dims.iter().copied().max().unwrap_or(1);
-    let edge = [8usize, 4, 2].into_iter().find(|e| longest / e >= 16).unwrap_or(1);
-    Cells { origin: Vec3::ZERO, edge: Vec3::splat(edge as f32), dims: dims.map(|n| n.div_ceil(edge)) }
-}
-
-/// Indices (with the margin) of the voxels that interpolation in `b` reads.
-pub(crate) fn reach(b: Bounds3, dims: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
-    let axis = |lo: f32, hi: f32, n: usize| {
-        let at = |x: f32| (x + 0.5).floor().clamp(0.0, (n + 1) as f32) as usize;
-        at(lo)..=(at(hi) + 1).min(n + 1)
-    };
-    let xs = axis(b.lo.x, b.hi.x, dims[0]);
-    let ys = axis(b.lo.y, b.hi.y, dims[1]);
-    let zs = axis(b.lo.z, b.hi.z, dims[2]);
-    zs.flat_map(move |z| {
-        let xs = xs.clone();
-        ys.clone().flat_map(move |y| xs.clone().map(move |x| [x, y, z]))
-    })
-}
-
 impl Density for Dense {
     #[inline(always)]
     fn at(&self, p: Vec3) -> f32 {
@@ -108,8 +86,7 @@ impl Density for Dense {
     }
 
     fn bounds(&self) -> Bounds3 {
-        let [x, y, z] = self.dims.map(|n| n as f32);
-        Bounds3::new(Vec3::ZERO, vec3(x, y, z))
+        bounds_of(self.dims)
     }
 
     fn cells(&self) -> Cells {

@@ -3,11 +3,12 @@
 mod bricks;
 mod cloud;
 mod dense;
+mod lattice;
 
 pub use bricks::{Bricks, Node};
 pub use cloud::Cloud;
 pub use dense::{Dense, Edge};
-pub(crate) use dense::{cells_of, reach};
+pub(crate) use lattice::{Corners, Lattice, bounds_of, cells_of, reach};
 
 use super::majorant::Cells;
 use tyndall_base::Vec3;

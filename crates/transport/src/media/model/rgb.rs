@@ -6,11 +6,11 @@ use crate::{
     TransportError,
     error::check,
     media::{
-        density::{Edge, Extrema, cells_of, reach, split},
+        density::{Corners, Edge, Extrema, Lattice, bounds_of, cells_of, reach},
         majorant::Cells,
     },
 };
-use tyndall_base::{Vec3, vec::vec3};
+use tyndall_base::Vec3;
 use tyndall_geometry::Bounds3;
 use tyndall_scatter::phase::{Mixture, PhaseFunction};
 use tyndall_spectral::SpaceName;
@@ -83,37 +83,10 @@ pub struct Prepared<'m, const N: usize> {
     white: Spectrum<N>,
 }
 
-/// Weights and places of the voxels around a point.
-type Corners = [(f32, Option<usize>); 8];
-
 impl RgbGrid {
-    /// Indices count the margin.
     #[inline(always)]
-    fn voxel(&self, v: [i32; 3]) -> Option<usize> {
-        let mut at = [0usize; 3];
-        for k in 0..3 {
-            let n = self.dims[k] as i32;
-            let i = v[k] - 1;
-            at[k] = match self.edge {
-                Edge::Clamp => i.clamp(0, n - 1) as usize,
-                Edge::Fade if i < 0 || i >= n => return None,
-                Edge::Fade => i as usize,
-            };
-        }
-        Some((at[2] * self.dims[1] + at[1]) * self.dims[0] + at[0])
-    }
-
-    #[inline(always)]
-    fn corners(&self, p: Vec3) -> Corners {
-        let [(x, dx), (y, dy), (z, dz)] = [split(p.x + 0.5), split(p.y + 0.5), split(p.z + 0.5)];
-        let mut corners = [(0.0, None); 8];
-        for (i, c) in corners.iter_mut().enumerate() {
-            let i = i as i32;
-            let pick = |bit: i32, d: f32| if i >> bit & 1 == 1 { d } else { 1.0 - d };
-            let weight = pick(0, dx) * pick(1, dy) * pick(2, dz);
-            *c = (weight, self.voxel([x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)]));
-        }
-        corners
+    fn lattice(&self) -> Lattice {
+        Lattice { dims: self.dims, edge: self.edge }
     }
 
     #[inline(always)]
@@ -151,13 +124,13 @@ impl MediumModel for RgbGrid {
 
     #[inline]
     fn extinction<'m, const N: usize>(&'m self, p: Vec3, s: &Prepared<'m, N>) -> Spectrum<N> {
-        let [a, sigma_s] = self.coefficients(&self.corners(p), s.w);
+        let [a, sigma_s] = self.coefficients(&self.lattice().corners(p), s.w);
         a + sigma_s
     }
 
     #[inline]
     fn at<'m, const N: usize>(&'m self, p: Vec3, s: &Prepared<'m, N>) -> Point<N> {
-        let corners = self.corners(p);
+        let corners = self.lattice().corners(p);
         let [sigma_a, sigma_s] = self.coefficients(&corners, s.w);
         let le = self.le.as_ref().map_or(Spectrum::ZERO, |g| Self::blend(g, &corners, s.w) * s.white);
         Point { sigma_a, sigma_s, emitted: sigma_a * le }
@@ -181,15 +154,14 @@ impl MediumModel for RgbGrid {
             (Some(g), Some(i)) => g[i].sigmoid.bounds(range).map(|v| v * g[i].scale),
         };
         reach(b, self.dims).fold(Extrema::NONE, |e, at| {
-            let voxel = self.voxel(at.map(|i| i as i32));
+            let voxel = self.lattice().voxel(at.map(|i| i as i32));
             let (a, s) = (one(&self.sigma_a, voxel), one(&self.sigma_s, voxel));
             e.with(a[0] + s[0]).with(a[1] + s[1])
         })
     }
 
     fn bounds(&self) -> Bounds3 {
-        let [x, y, z] = self.dims.map(|n| n as f32);
-        Bounds3::new(Vec3::ZERO, vec3(x, y, z))
+        bounds_of(self.dims)
     }
 
     fn cells(&self) -> Cells {

@@ -8,11 +8,11 @@ use crate::{
     TransportError,
     error::check,
     media::{
-        density::{Edge, Extrema, cells_of, reach, split},
+        density::{Edge, Extrema, Lattice, bounds_of, cells_of, reach},
         majorant::Cells,
     },
 };
-use tyndall_base::{Vec3, vec::vec3};
+use tyndall_base::Vec3;
 use tyndall_geometry::Bounds3;
 use tyndall_scatter::phase::{Mixture, PhaseFunction};
 use tyndall_spectral::{Emission, LambdaRange, Spectrum, Wavelengths};
@@ -80,30 +80,23 @@ impl SpectralGrid {
         &self.edges
     }
 
-    /// Place of the first band of a voxel; indices count the margin.
     #[inline(always)]
-    fn voxel(&self, v: [i32; 3]) -> Option<usize> {
-        let mut at = [0usize; 3];
-        for k in 0..3 {
-            let n = self.dims[k] as i32;
-            let i = v[k] - 1;
-            at[k] = match self.edge {
-                Edge::Clamp => i.clamp(0, n - 1) as usize,
-                Edge::Fade if i < 0 || i >= n => return None,
-                Edge::Fade => i as usize,
-            };
-        }
-        Some(((at[2] * self.dims[1] + at[1]) * self.dims[0] + at[0]) * (self.edges.len() - 1))
+    fn lattice(&self) -> Lattice {
+        Lattice { dims: self.dims, edge: self.edge }
+    }
+
+    /// Bands of a voxel.
+    #[inline(always)]
+    fn bands(&self) -> usize {
+        self.edges.len() - 1
     }
 
     #[inline(always)]
     fn coefficients<const N: usize>(&self, p: Vec3, bands: &[Option<usize>; N]) -> [Spectrum<N>; 2] {
-        let [(x, dx), (y, dy), (z, dz)] = [split(p.x + 0.5), split(p.y + 0.5), split(p.z + 0.5)];
         let mut sum = [Spectrum::ZERO; 2];
-        for i in 0..8 {
-            let pick = |bit: i32, d: f32| if i >> bit & 1 == 1 { d } else { 1.0 - d };
-            let weight = pick(0, dx) * pick(1, dy) * pick(2, dz) * self.scale;
-            let Some(first) = self.voxel([x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)]) else { continue };
+        for (weight, voxel) in self.lattice().corners(p) {
+            let Some(voxel) = voxel else { continue };
+            let (weight, first) = (weight * self.scale, voxel * self.bands());
             for k in 0..N {
                 if let Some(band) = bands[k] {
                     let [a, s] = self.values[first + band];
@@ -161,19 +154,19 @@ impl MediumModel for SpectralGrid {
     }
 
     fn extrema(&self, b: Bounds3) -> Extrema {
-        let bands = self.edges.len() - 1;
-        reach(b, self.dims).fold(Extrema::NONE, |e, at| match self.voxel(at.map(|i| i as i32)) {
+        let voxel = |at: [usize; 3]| self.lattice().voxel(at.map(|i| i as i32));
+        reach(b, self.dims).fold(Extrema::NONE, |e, at| match voxel(at) {
             None => e.with(0.0),
-            Some(first) => {
-                let sums = self.values[first..first + bands].iter().map(|[a, s]| a + s);
+            Some(voxel) => {
+                let first = voxel * self.bands();
+                let sums = self.values[first..first + self.bands()].iter().map(|[a, s]| a + s);
                 sums.fold(e, |e, v| e.with(v * self.scale))
             }
         })
     }
 
     fn bounds(&self) -> Bounds3 {
-        let [x, y, z] = self.dims.map(|n| n as f32);
-        Bounds3::new(Vec3::ZERO, vec3(x, y, z))
+        bounds_of(self.dims)
     }
 
     fn cells(&self) -> Cells {
