@@ -75,7 +75,9 @@ fn pays(scene: &Scene, settings: &Settings, wavelengths: &WavelengthSampler) -> 
     let w = wavelengths.sample::<8>(0.5);
     let (_, radius) = scene.accel.bounds().bounding_sphere();
     let thin = |m: &Medium| m.homogeneous(&w).is_some_and(|m| m.sigma_t().mean() * radius < THICK);
-    settings.light_sampling && settings.max_depth > 1 && scene.media.iter().all(thin)
+    // a sky is best met by the scattering itself: measured, steering away from it costs more than it finds
+    let sky = !scene.lights.infinite().is_empty();
+    settings.light_sampling && settings.max_depth > 1 && !sky && scene.media.iter().all(thin)
 }
 
 /// Watches particles.
