@@ -13,9 +13,8 @@ const HELP: &str = "\
 cargo xtask TASK
 
   test [STEP]...   everything that decides whether the project is sound, or only the named steps
-  bench            efficiency of the defaults and of every technique, in target/bench; --quick, --inner for inner
-                   loops, --peers installs Mitsuba 3 into target/peers and sets it beside ours, --scene NAME for one
-                   scene (may be repeated), --defaults leaves the techniques out
+  bench            error against time, memory, start-up, threads, growth and inner loops, beside Mitsuba 3, pbrt-v4 and
+                   Embree 4 where they are installed, on a page in target/bench; `cargo xtask bench --help` tells all
   layers           which crate may use which, and the size of source files
   hygiene          no machine paths, no unfinished-work markers, no large files in the repository
   help             this text

@@ -1,6 +1,12 @@
-//! Renders with many seeds, and what the spread and the clock say.
+//! Renders with many seeds, in this process, on this thread.
 
-use crate::{mask::Mask, scenes::BenchScene, variants::Variant};
+use crate::{
+    efficiency::Measurement,
+    scenes::BenchScene,
+    setup::Setup,
+    store,
+    variants::{DEFAULTS, Variant},
+};
 use cpu_time::ThreadTime;
 use tyndall::{
     Options, Plan, Source,
@@ -8,53 +14,48 @@ use tyndall::{
     plan,
 };
 
+/// The name under which our own results stand.
+pub const OURS: &str = "Tyndall";
+
 /// One cell of a table.
 pub struct Task<'a> {
     pub scene: &'a BenchScene,
     pub variant: &'a Variant,
     pub resolution: u32,
     pub spp: u32,
+    pub seeds: u32,
 }
 
-/// Pictures of luminance, one per seed, with their times.
-pub struct Measurement {
-    /// Luminances, row by row.
-    pub pictures: Vec<Vec<f64>>,
-    /// CPU seconds of each.
-    pub seconds: Vec<f64>,
-    /// Samples of a picture.
-    pub samples: f64,
+/// The defaults on all scenes at all numbers of samples.
+pub fn defaults(setup: &Setup) -> Result<(), String> {
+    for scene in &setup.scenes {
+        let task = |&spp: &u32| Task {
+            scene,
+            variant: &DEFAULTS,
+            resolution: setup.resolution(),
+            spp,
+            seeds: setup.seeds_at(spp),
+        };
+        eprintln!("{}: defaults", scene.name);
+        let tasks: Vec<Task<'_>> = setup.spp().iter().map(task).collect();
+        for (task, m) in tasks.iter().zip(all(setup, &tasks)?) {
+            store::pictures(&setup.folder, OURS, scene.name, task.spp, &m)?;
+        }
+    }
+    Ok(())
 }
 
-/// What a renderer achieves.
-#[derive(Clone, Copy, Debug)]
-pub struct Efficiency {
-    /// 1 / (MSE_Y x CPU seconds) without the pixels of the mask.
-    pub headline: f64,
-    /// Its standard error over seeds.
-    pub headline_se: f64,
-    /// The same of all pixels.
-    pub whole: f64,
-    /// Mean squared error of Y without the pixels of the mask.
-    pub mse: f64,
-    /// CPU seconds of a picture.
-    pub seconds: f64,
-    pub samples_per_second: f64,
-    /// Mean of Y over all pixels and seeds.
-    pub mean_y: f64,
-}
-
-/// Measures all tasks; each seed goes through all of them before the next.
-pub fn all(tasks: &[Task<'_>], seeds: u32) -> Result<Vec<Measurement>, String> {
-    let plans = tasks.iter().map(planned).collect::<Result<Vec<_>, _>>()?;
-    let empty = |p: &Plan| Measurement {
-        pictures: Vec::new(),
-        seconds: Vec::new(),
-        samples: p.job.film.bounds.area() as f64 * f64::from(p.job.spp),
+/// Measures all tasks; each seed goes through all of them before the next, so that a busy machine slows all alike.
+pub fn all(setup: &Setup, tasks: &[Task<'_>]) -> Result<Vec<Measurement>, String> {
+    let plans = tasks.iter().map(|t| planned(setup, t)).collect::<Result<Vec<_>, _>>()?;
+    let empty = |t: &Task<'_>| Measurement {
+        width: t.resolution as usize,
+        spp: f64::from(t.spp),
+        ..Measurement::default()
     };
-    let mut out: Vec<Measurement> = plans.iter().map(empty).collect();
-    for seed in 0..seeds {
-        for (plan, m) in plans.iter().zip(&mut out) {
+    let mut out: Vec<Measurement> = tasks.iter().map(empty).collect();
+    for seed in 0..tasks.iter().map(|t| t.seeds).max().unwrap_or(0) {
+        for ((plan, m), _) in plans.iter().zip(&mut out).zip(tasks).filter(|(_, t)| seed < t.seeds) {
             let (picture, seconds) = picture(plan, u64::from(seed))?;
             m.pictures.push(picture);
             m.seconds.push(seconds);
@@ -63,11 +64,12 @@ pub fn all(tasks: &[Task<'_>], seeds: u32) -> Result<Vec<Measurement>, String> {
     Ok(out)
 }
 
-fn planned(task: &Task<'_>) -> Result<Plan, String> {
+fn planned(setup: &Setup, task: &Task<'_>) -> Result<Plan, String> {
     let resolution = Some([task.resolution; 2]);
     let mut options = Options { spp: Some(task.spp), resolution, ..Options::default() };
     (task.variant.options)(&mut options);
-    let mut plan = plan(Source::File(&task.scene.path()), &options).map_err(|e| e.to_string())?;
+    let path = task.scene.path(&setup.scene_folder());
+    let mut plan = plan(Source::File(&path), &options).map_err(|e| e.to_string())?;
     (task.variant.settings)(&mut plan.pass.settings);
     Ok(plan)
 }
@@ -90,45 +92,4 @@ pub fn picture(plan: &Plan, seed: u64) -> Result<(Vec<f64>, f64), String> {
         return Err(format!("{} samples are not finite", film.diagnostics().non_finite));
     }
     Ok((film.develop().y.iter().map(|&y| f64::from(y)).collect(), seconds))
-}
-
-impl Measurement {
-    /// The efficiency with its error from leaving out one seed at a time (jackknife).
-    pub fn efficiency(&self, mask: &Mask) -> Efficiency {
-        let n = self.pictures.len() as f64;
-        let seconds = self.seconds.iter().sum::<f64>() / n;
-        let mse = self.mse(None, Some(mask));
-        let headline = |left_out| {
-            let s: f64 =
-                self.seconds.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, s)| s).sum();
-            let s = s / (n - f64::from(u8::from(left_out.is_some())));
-            1.0 / (self.mse(left_out, Some(mask)) * s)
-        };
-        let without: Vec<f64> = (0..self.pictures.len()).map(|i| headline(Some(i))).collect();
-        let mean = without.iter().sum::<f64>() / n;
-        let spread: f64 = without.iter().map(|e| (e - mean).powi(2)).sum();
-        let all: f64 = self.pictures.iter().flatten().sum();
-        Efficiency {
-            headline: headline(None),
-            headline_se: (spread * (n - 1.0) / n).sqrt(),
-            whole: 1.0 / (self.mse(None, None) * seconds),
-            mse,
-            seconds,
-            samples_per_second: self.samples / seconds,
-            mean_y: all / (n * self.pictures[0].len() as f64),
-        }
-    }
-
-    /// Mean over pixels of the variance over seeds.
-    fn mse(&self, left_out: Option<usize>, mask: Option<&Mask>) -> f64 {
-        let kept = || self.pictures.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, p)| p);
-        let n = kept().count() as f64;
-        let (mut sum, mut pixels) = (0.0, 0.0);
-        for i in (0..self.pictures[0].len()).filter(|&i| mask.is_none_or(|m| !m.hides(i))) {
-            let mean = kept().map(|p| p[i]).sum::<f64>() / n;
-            sum += kept().map(|p| (p[i] - mean).powi(2)).sum::<f64>() / (n - 1.0);
-            pixels += 1.0;
-        }
-        sum / pixels
-    }
 }
