@@ -6,10 +6,11 @@
 #[path = "../tests/common/meshes.rs"]
 mod meshes;
 
+use cpu_time::ThreadTime;
 use std::{
     io::Write,
     path::{Path, PathBuf},
-    time::{Duration, Instant},
+    time::Instant,
 };
 use tyndall_base::Vec3;
 use tyndall_base::vec::vec3;
@@ -91,21 +92,13 @@ fn shadow_rays(accel: &Accel, rays: &[Ray], light: Vec3, size: f32) -> Vec<Ray> 
     rays.iter().enumerate().filter_map(aim).collect()
 }
 
-/// Time this thread has run: on a busy machine the wall clock measures the others. Falls back to the wall clock.
-fn thread_time(origin: Instant) -> Duration {
-    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let ran = stat.and_then(|s| s.split_whitespace().next()?.parse().ok());
-    ran.map_or_else(|| origin.elapsed(), Duration::from_nanos)
-}
-
-/// Best of the rounds, in millions per second.
+/// Best of the rounds, in millions per second that this thread ran: on a busy machine the wall clock measures the others.
 fn rate(rays: &[Ray], rounds: usize, mut f: impl FnMut(&Ray) -> bool) -> (f64, usize) {
     let (mut best, mut hits) = (0.0f64, 0);
     for _ in 0..rounds {
-        let origin = Instant::now();
-        let start = thread_time(origin);
+        let start = ThreadTime::now();
         hits = rays.iter().filter(|r| f(r)).count();
-        best = best.max(rays.len() as f64 / (thread_time(origin) - start).as_secs_f64() / 1e6);
+        best = best.max(rays.len() as f64 / start.elapsed().as_secs_f64() / 1e6);
     }
     (best, hits)
 }

@@ -50,8 +50,13 @@ fn direction(i: u32) -> Vec3 {
     tyndall::base::warp::sample_uniform_sphere([unit(i, 1), unit(i, 2)])
 }
 
+/// A direction that the loop really makes, whatever becomes of it.
+fn given(i: u32) -> Vec3 {
+    black_box(direction(i))
+}
+
 fn upwards(i: u32) -> Vec3 {
-    tyndall::base::warp::sample_cosine_hemisphere([unit(i, 3), unit(i, 4)])
+    black_box(tyndall::base::warp::sample_cosine_hemisphere([unit(i, 3), unit(i, 4)]))
 }
 
 fn wavelengths() -> Wavelengths<LANES> {
@@ -103,17 +108,17 @@ fn scattering() -> Result<Vec<Inner>, String> {
     for (name, phase) in phases()? {
         let (w, p) = (wavelengths(), phase.clone());
         all.push(inner(&format!("phase function, evaluate: {name}"), move |n| {
-            (0..n).map(|i| p.eval(direction(i), direction(!i), black_box(&w)).sum()).sum()
+            (0..n).map(|i| p.eval(given(i), given(!i), black_box(&w)).sum()).sum()
         }));
         all.push(inner(&format!("phase function, sample: {name}"), move |n| {
-            let draw = |i| phase.sample(direction(i), [unit(i, 5), unit(i, 6)], black_box(&w));
-            (0..n).map(|i| draw(i).p.sum()).sum()
+            let draw = |i| phase.sample(given(i), [unit(i, 5), unit(i, 6)], black_box(&w));
+            (0..n).map(draw).map(|s| s.p.sum() + s.wi.z).sum()
         }));
     }
     for (name, bsdf) in bsdfs() {
         all.push(inner(&format!("BSDF, evaluate with density: {name}"), move |n| {
             let f = |i| black_box(&bsdf).eval_pdf(upwards(i), upwards(!i));
-            (0..n).map(|i| f(i).0.sum() + f(i).1.sum()).sum()
+            (0..n).map(f).map(|(f, pdf)| f.sum() + pdf.sum()).sum()
         }));
         all.push(inner(&format!("BSDF, sample: {name}"), move |n| {
             let draw = |i| black_box(&bsdf).sample(upwards(i), unit(i, 5), [unit(i, 6), unit(i, 7)]);
@@ -140,8 +145,8 @@ fn numbers() -> Result<Vec<Inner>, String> {
         })
     };
     Ok(vec![
-        inner("the numbers and directions that the loops above are fed with", |n| {
-            (0..n).map(|i| direction(i).z + direction(!i).x).sum()
+        inner("the two directions that phase functions are evaluated at", |n| {
+            (0..n).map(|i| given(i).z + given(!i).x).sum()
         }),
         set("8 wavelengths, uniform", uniform),
         set("8 wavelengths, by the eye", visible),

@@ -65,7 +65,11 @@ fn run(arguments: &[String]) -> Result<(), String> {
     if stage == "count-one" {
         let [folder, index, calls] = rest else { return Err("count-one FOLDER INDEX CALLS".into()) };
         let number = |text: &String| text.parse::<u32>().map_err(|e| format!("`{text}`: {e}"));
-        return counts::one(&Setup::parse(&[folder.clone()])?, number(index)? as usize, number(calls)?);
+        return counts::one(
+            &Setup::parse(std::slice::from_ref(folder))?,
+            number(index)? as usize,
+            number(calls)?,
+        );
     }
     let known = STAGES.iter().find(|(name, _)| name == stage);
     let (_, action) = known.ok_or_else(|| format!("no stage `{stage}`\nhint: the stages are {}", names()))?;
