@@ -1,15 +1,20 @@
 //! Light sampling at a vertex, combined with chance hits and with equiangular sampling.
 
 use crate::{
+    ember,
     equiangular::Segment,
     medium::Inside,
     settings::Settings,
-    shadow::{End, Place, shadow},
+    shadow::{End, Place, Shadow, shadow},
     weight::{PathWeight, divide},
 };
 use tyndall_base::Vec3;
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::{LightId, MediumId, Scene, light::Target, sampler::PathSampler};
+use tyndall_transport::{
+    LightId, MediumId, Scene,
+    light::{Light, Target},
+    sampler::PathSampler,
+};
 
 /// The equiangular technique that could have made a medium vertex, kept until the path scatters again.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +49,33 @@ pub struct Scatterer<'a, 's, S, F, const N: usize> {
     pub known: Place<'a, 's, N>,
 }
 
+impl<S, F, const N: usize> Scatterer<'_, '_, S, F, N>
+where
+    S: Fn(Vec3) -> (Vec3, MediumId),
+{
+    /// The shadow ray to `end`, which lies in the direction `wi`; `None` when something blocks it.
+    #[inline(always)]
+    pub fn shadow(
+        &self,
+        scene: &Scene,
+        settings: &Settings,
+        wi: Vec3,
+        end: End,
+        w: &Wavelengths<N>,
+        sampler: &mut PathSampler,
+    ) -> Option<Shadow<N>> {
+        let (o, medium) = (self.spawn)(wi);
+        let fresh;
+        let inside = if medium == self.known.medium {
+            self.known.inside
+        } else {
+            fresh = Inside::of(scene, medium, w);
+            fresh.as_ref()
+        };
+        shadow(scene, settings, o, Place { medium, inside, time: self.known.time }, end, w, sampler)
+    }
+}
+
 /// One light sample at `vertex`: light per lane.
 #[inline]
 pub fn sample<const N: usize, S, F>(
@@ -62,25 +94,18 @@ where
     let u = sampler.next_2d();
     let Some(selected) = scene.lights.select_at(vertex.p, vertex.n, u_light) else { return Spectrum::ZERO };
     let light = scene.lights.get(selected.id);
+    if let Light::Volume(volume) = light {
+        let choice = (&**volume, selected.pmf);
+        let l = ember::sample(scene, settings, vertex, choice, [u.x, u.y], weight, w, sampler);
+        return l.unwrap_or(Spectrum::ZERO);
+    }
     let Some(sample) = light.sample_li(&scene.accel, vertex.p, [u.x, u.y], w) else { return Spectrum::ZERO };
     let (f, pdf) = (vertex.eval)(sample.wi);
     if f.is_zero() {
         return Spectrum::ZERO;
     }
-    let (o, medium) = (vertex.spawn)(sample.wi);
-    let fresh;
-    let inside = if medium == vertex.known.medium {
-        vertex.known.inside
-    } else {
-        fresh = Inside::of(scene, medium, w);
-        fresh.as_ref()
-    };
     let end = sample.target.map_or(End::Infinity(sample.wi), End::At);
-    let Some(s) =
-        shadow(scene, settings, o, Place { medium, inside, time: vertex.known.time }, end, w, sampler)
-    else {
-        return Spectrum::ZERO;
-    };
+    let Some(s) = vertex.shadow(scene, settings, sample.wi, end, w, sampler) else { return Spectrum::ZERO };
     // densities of the techniques that make this path, lane by lane
     let by_light = s.r_l * (selected.pmf * sample.pdf);
     let by_chance = if sample.delta { Spectrum::ZERO } else { pdf * s.r_u };

@@ -7,6 +7,7 @@
 pub mod analog;
 pub mod connect;
 pub mod direct;
+pub mod ember;
 pub mod equiangular;
 pub mod glow;
 pub mod isa;

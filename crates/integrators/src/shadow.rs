@@ -15,6 +15,8 @@ pub struct Shadow<const N: usize> {
     pub r_l: Spectrum<N>,
     /// Density of a path of chance that gets through, over the hero's density of this estimate.
     pub r_u: Spectrum<N>,
+    /// The medium that the far end lies in.
+    pub end: MediumId,
 }
 
 /// The medium that a shadow ray starts in, with its coefficients, which the path knows already.
@@ -48,14 +50,13 @@ pub fn shadow<const N: usize>(
     w: &Wavelengths<N>,
     sampler: &mut PathSampler,
 ) -> Option<Shadow<N>> {
-    let mut s = Shadow { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE };
+    let mut s = Shadow { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE, end: start.medium };
     // one query decides whether anything blocks the whole way; boundaries are looked for only where there are some
     let Some(mut ray) = towards(o, &end, start.time) else { return Some(s) };
     let obstacles = scene.obstacles(&ray);
     if obstacles.blocked {
         return None;
     }
-    let mut medium = start.medium;
     let mut inside = start.inside.copied();
     loop {
         let hit = if obstacles.boundary { scene.next_boundary(&ray) } else { None };
@@ -68,8 +69,8 @@ pub fn shadow<const N: usize>(
         }
         let Some(hit) = hit else { return Some(s) };
         let isect = scene.interaction(&ray, &hit);
-        medium = isect.medium_towards(ray.d, medium);
-        inside = Inside::of(scene, medium, w);
+        s.end = isect.medium_towards(ray.d, s.end);
+        inside = Inside::of(scene, s.end, w);
         let Some(rest) = towards(isect.surface.origin(ray.d), &end, start.time) else { return Some(s) };
         ray = rest;
     }

@@ -11,11 +11,12 @@
 //! `prod sigma_n exp(-int sigma_maj)`, so that the two ways to a light are compared collision by collision.
 
 use crate::{
+    ember::Ember,
     settings::Settings,
     shadow::Shadow,
     weight::{PathWeight, divide, exp},
 };
-use tyndall_base::{rng::Pcg32, warp};
+use tyndall_base::{Vec3, rng::Pcg32, warp};
 use tyndall_geometry::Ray;
 use tyndall_scatter::phase::Mixture;
 use tyndall_spectral::{Spectrum, Wavelengths};
@@ -69,6 +70,8 @@ pub struct Traveller<'a, 'm, const N: usize> {
     pub weight: &'a mut PathWeight<N>,
     /// Emission that reaches the pixel.
     pub emitted: &'a mut Spectrum<N>,
+    /// How light sampling could have found that emission.
+    pub ember: Option<Ember<'a>>,
     /// Numbers.
     pub rng: Pcg32,
 }
@@ -99,7 +102,7 @@ impl Lengths {
 }
 
 struct Fly<'a, 'm, const N: usize> {
-    local: (tyndall_base::Vec3, tyndall_base::Vec3),
+    local: (Vec3, Vec3),
     traveller: Traveller<'a, 'm, N>,
 }
 
@@ -132,7 +135,7 @@ impl<'m, const N: usize> Visitor<'m> for Fly<'_, 'm, N> {
                 *a.flight = warp::sample_exponential(a.rng.next_f32(), 1.0);
                 let p = o + d * t;
                 let point = model.at(p, &prepared);
-                a.emission(&point, unit, stretch.max, &passed);
+                a.emission(&point, (t, p), unit, stretch.max, &passed);
                 match a.event(&point, unit, [stretch.max, sampled], &mut passed) {
                     Event::Null => {}
                     Event::Ended => return Flight::Ended,
@@ -163,17 +166,39 @@ impl<const N: usize> Traveller<'_, '_, N> {
         if self.settings.residual { s.max - s.min } else { s.max }
     }
 
-    /// Emission at a tentative collision: `beta T emitted / (T_h sigma_maj_h)`, whose density in lane k is
-    /// `sigma_maj_k T_k`.
+    /// Emission at a tentative collision at distance `t`, the point `p` of the medium's space: `beta T emitted / (T_h
+    /// sigma_maj_h)`, whose density in lane k is `sigma_maj_k T_k`, beside that of choosing the point as a light.
     #[inline(always)]
-    fn emission(&mut self, point: &Point<N>, unit: Spectrum<N>, max: f32, passed: &Lengths) {
+    fn emission(
+        &mut self,
+        point: &Point<N>,
+        (t, p): (f32, Vec3),
+        unit: Spectrum<N>,
+        max: f32,
+        passed: &Lengths,
+    ) {
         if point.emitted.is_zero() {
             return;
         }
         let inv = 1.0 / (unit.hero() * max);
         let ratio = over_hero(unit, passed.max);
-        let r = self.weight.r_u * unit * ratio * (max * inv);
+        let mut r = self.weight.r_u * unit * ratio * (max * inv);
+        if let Some(ember) = &self.ember {
+            let density = ember.density(self.ray.at(t), p);
+            r += self.weight.r_l * self.competing(unit, ratio, passed) * (inv * density);
+        }
         *self.emitted += divide(self.weight.beta * point.emitted * ratio * inv, r);
+    }
+
+    /// What the techniques that choose a light have for getting this far, over the hero's transmittance of the
+    /// majorant, where `ratio` is that of the lanes.
+    #[inline(always)]
+    fn competing(&self, unit: Spectrum<N>, ratio: Spectrum<N>, passed: &Lengths) -> Spectrum<N> {
+        if !self.settings.exact_transmittance {
+            return ratio;
+        }
+        let hero = unit.hero() * passed.max;
+        exp(unit.map(|u| hero - u * passed.sampled))
     }
 
     /// Decides at the hero's wavelength and weighs all lanes.
@@ -213,13 +238,7 @@ impl<const N: usize> Traveller<'_, '_, N> {
     fn catch_up(&mut self, unit: Spectrum<N>, passed: &mut Lengths) {
         let ratio = over_hero(unit, passed.max);
         self.weight.fly(ratio, ratio);
-        let competing = if self.settings.exact_transmittance {
-            let hero = unit.hero() * passed.max;
-            exp(unit.map(|u| hero - u * passed.sampled))
-        } else {
-            ratio
-        };
-        self.weight.compete(competing);
+        self.weight.compete(self.competing(unit, ratio, passed));
         *passed = Lengths::default();
     }
 }
@@ -242,15 +261,15 @@ pub fn transmit<const N: usize>(
     rng: Pcg32,
     s: &mut Shadow<N>,
 ) -> Option<()> {
-    let passed = medium.visit(Transmit { local: medium.local(ray), t_max, w, settings, rng })?;
-    s.t *= passed.t;
-    s.r_l *= passed.r_l;
-    s.r_u *= passed.r_u;
+    let [t, r_l, r_u] = medium.visit(Transmit { local: medium.local(ray), t_max, w, settings, rng })?;
+    s.t *= t;
+    s.r_l *= r_l;
+    s.r_u *= r_u;
     Some(())
 }
 
 struct Transmit<'a, const N: usize> {
-    local: (tyndall_base::Vec3, tyndall_base::Vec3),
+    local: (Vec3, Vec3),
     t_max: f32,
     w: &'a Wavelengths<N>,
     settings: &'a Settings,
@@ -258,10 +277,10 @@ struct Transmit<'a, const N: usize> {
 }
 
 impl<'m, const N: usize> Visitor<'m> for Transmit<'_, N> {
-    type Output = Option<Shadow<N>>;
+    type Output = Option<[Spectrum<N>; 3]>;
 
     #[inline(never)]
-    fn visit<M: MediumModel>(mut self, model: &'m M, majorants: &'m Majorants) -> Option<Shadow<N>> {
+    fn visit<M: MediumModel>(mut self, model: &'m M, majorants: &'m Majorants) -> Option<[Spectrum<N>; 3]> {
         let (o, d) = self.local;
         let prepared = model.prepare(self.w);
         let unit = model.unit(&prepared);
@@ -303,7 +322,7 @@ impl<'m, const N: usize> Visitor<'m> for Transmit<'_, N> {
             }
         }
         s.catch_up(unit, &mut passed, self.settings);
-        Some(Shadow { t: s.r_u * s.roulette, r_l: s.r_l, r_u: s.r_u })
+        Some([s.r_u * s.roulette, s.r_l, s.r_u])
     }
 }
 

@@ -127,9 +127,11 @@ impl Scene {
         let (_, radius) = self.accel.bounds().bounding_sphere();
         let radius = if radius.is_finite() && radius > 0.0 { radius } else { 1.0 };
         let lights = self.lights.iter().map(|l| (l.extent(radius) as f32, l.spectrum()));
-        // a medium that fills the scene: 4 pi times its volume, per metre of absorption
+        // a medium that fills the scene: 4 pi times its volume, per metre of absorption; those that are lights know better
         let volume = 4.0 / 3.0 * std::f32::consts::PI * radius * radius * radius;
-        let media = self.media.iter().filter_map(|m| m.emission());
+        let unknown = |i: usize| self.lights.of_medium(MediumId(i as u32)).is_none();
+        let media =
+            self.media.iter().enumerate().filter(|(i, _)| unknown(*i)).filter_map(|(_, m)| m.emission());
         lights.chain(media.map(|e| (4.0 * std::f32::consts::PI * volume, e))).collect()
     }
 

@@ -3,6 +3,7 @@
 use super::Walk;
 use crate::{
     direct::Scatterer,
+    ember::Ember,
     observer::{Event, PathObserver},
     shadow::Place,
     steer::{Steering, mixed},
@@ -24,6 +25,9 @@ impl<'s, const N: usize> Walk<'s, N> {
         seen: &mut impl PathObserver<N>,
     ) -> Option<bool> {
         let mut emitted = Spectrum::ZERO;
+        let by_light = self.settings.light_sampling && !self.weight.r_l.is_zero();
+        let ember =
+            if by_light { Ember::of(self.scene, self.medium, self.previous, self.facing) } else { None };
         let traveller = Traveller {
             ray: self.ray,
             t_max,
@@ -32,6 +36,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             flight: &mut self.flight,
             weight: &mut self.weight,
             emitted: &mut emitted,
+            ember,
             rng: sampler.stream(),
         };
         let flight = fly(medium, traveller);

@@ -6,7 +6,10 @@ use super::{
 };
 use tyndall_integrators::{Equiangular, Guiding, Settings, pixel::Method};
 use tyndall_pbrt::{EntityKind, Error, OptionValue, ParamSet};
-use tyndall_transport::{light::Selection, sampler::SamplerKind};
+use tyndall_transport::{
+    light::{MediumLights, Selection},
+    sampler::SamplerKind,
+};
 
 /// Samples per pixel, their kind and the seed.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +81,8 @@ pub struct IntegratorDescription {
     pub ignores_media: bool,
     /// How lights are chosen.
     pub selection: Selection,
+    /// Which media are lights.
+    pub medium_lights: MediumLights,
 }
 
 /// What an integrator's name stands for: the method, and whether media are left out.
@@ -101,6 +106,7 @@ const KNOWN: &[&str] = &[
     "lightsampler",
     "equiangular",
     "lightsampling",
+    "mediumlights",
     "exacttransmittance",
     "residualratio",
     "survival",
@@ -121,8 +127,14 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
     let Some(declared) = declared else {
         let (name, settings) = ("volpath".into(), Settings::default());
         let method = Method::Volpath;
-        let selection = Selection::default();
-        return Ok(IntegratorDescription { name, method, settings, ignores_media: false, selection });
+        return Ok(IntegratorDescription {
+            name,
+            method,
+            settings,
+            ignores_media: false,
+            selection: Selection::default(),
+            medium_lights: MediumLights::default(),
+        });
     };
     let p = &declared.params;
     let name = declared.name.as_str();
@@ -138,9 +150,9 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
         p.ignore(name, "directions are chosen by both techniques");
     }
     let settings = settings(p, method)?;
-    let selection = selection(p)?;
+    let (selection, medium_lights) = (selection(p)?, medium_lights(p)?);
     ctx.finish(p, KNOWN);
-    Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, selection })
+    Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, selection, medium_lights })
 }
 
 fn selection(p: &ParamSet) -> Result<Selection, Error> {
@@ -152,6 +164,18 @@ fn selection(p: &ParamSet) -> Result<Selection, Error> {
         other => {
             let got = format!("\"{other}\"");
             Err(refuse(p, "lightsampler", "must be bvh, power, uniform or exhaustive", got))
+        }
+    }
+}
+
+fn medium_lights(p: &ParamSet) -> Result<MediumLights, Error> {
+    match p.string("mediumlights", "auto")?.as_str() {
+        "auto" => Ok(MediumLights::Auto),
+        "off" => Ok(MediumLights::Off),
+        "always" => Ok(MediumLights::Always),
+        other => {
+            let got = format!("\"{other}\"");
+            Err(refuse(p, "mediumlights", "must be \"auto\", \"off\" or \"always\"", got))
         }
     }
 }

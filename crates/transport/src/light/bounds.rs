@@ -18,6 +18,8 @@ pub(super) struct LightBounds {
     cos_o: f32,
     cos_e: f32,
     two_sided: bool,
+    /// Sends nothing to points inside its box.
+    hollow: bool,
 }
 
 /// Cosines this much beyond the last one still count: a light must not be lost to rounding.
@@ -34,6 +36,7 @@ impl LightBounds {
             cos_o: -1.0,
             cos_e: 0.0,
             two_sided: false,
+            hollow: false,
         };
         match light {
             Light::Area(l) => {
@@ -46,12 +49,23 @@ impl LightBounds {
                 let bounds = shape.prim_bounds(l.prim);
                 let n = l.sample_position(accel, [0.5, 0.5]).target.n;
                 let cos_o = if flat { 1.0 } else { -1.0 };
-                Some(Self { bounds, axis: n, power, cos_o, cos_e: 0.0, two_sided: l.two_sided })
+                Some(Self {
+                    bounds,
+                    axis: n,
+                    power,
+                    cos_o,
+                    cos_e: 0.0,
+                    two_sided: l.two_sided,
+                    hollow: false,
+                })
             }
             Light::Point(l) => Some(everywhere(l.p)),
             Light::Spot(l) => Some(Self { axis: l.axis, cos_o: 1.0, cos_e: l.cos_end, ..everywhere(l.p) }),
             Light::Goniometric(l) => Some(everywhere(l.p)),
             Light::Projection(l) => Some(everywhere(l.p())),
+            Light::Volume(l) => {
+                Some(Self { bounds: l.bounds(), hollow: l.is_hollow(), ..everywhere(Vec3::ZERO) })
+            }
             Light::Distant(_) | Light::Infinite(_) | Light::Image(_) | Light::Portal(_) => None,
         }
     }
@@ -66,6 +80,7 @@ impl LightBounds {
             cos_o,
             cos_e: self.cos_e.min(b.cos_e),
             two_sided: self.two_sided || b.two_sided,
+            hollow: false,
         }
     }
 
@@ -78,9 +93,18 @@ impl LightBounds {
         2.0 * PI * (1.0 - cos_o) + FRAC_PI_2 * rest
     }
 
+    /// Whether `p` lies inside a light that sends nothing there.
+    #[inline(always)]
+    pub fn is_hollow_at(&self, p: Vec3) -> bool {
+        self.hollow && self.bounds.contains(p)
+    }
+
     /// How much a point with normal `n` (zero for none) may receive; zero only where nothing arrives.
     #[inline]
     pub fn importance(&self, p: Vec3, n: Vec3) -> f32 {
+        if self.is_hollow_at(p) {
+            return 0.0;
+        }
         let centre = (self.bounds.lo + self.bounds.hi) * 0.5;
         let half = (self.bounds.hi - self.bounds.lo) * 0.5;
         let radius2 = half.length_squared();

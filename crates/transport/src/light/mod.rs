@@ -17,6 +17,7 @@ mod projection;
 mod set;
 mod spot;
 mod tree;
+mod volume;
 
 pub use area::{AreaExtra, AreaLight};
 pub use distant::DistantLight;
@@ -27,8 +28,9 @@ pub use infinite::UniformInfiniteLight;
 pub use point::PointLight;
 pub use portal::{Portal, PortalLight, Sky};
 pub use projection::ProjectionLight;
-pub use set::{LightSet, Selected, Selection};
+pub use set::{LightSet, MediumLights, Selected, Selection};
 pub use spot::SpotLight;
+pub use volume::{VolumeLight, VolumePoint};
 
 use tyndall_base::Vec3;
 use tyndall_geometry::{Accel, Hit, Ray, Rounding, SurfacePoint, segment, spawn_origin};
@@ -107,6 +109,8 @@ pub enum Light {
     Goniometric(Box<GoniometricLight>),
     /// A point that projects an image.
     Projection(Box<ProjectionLight>),
+    /// A medium: its points are drawn by [`VolumeLight::sample`], per volume.
+    Volume(Box<VolumeLight>),
 }
 
 impl Light {
@@ -129,10 +133,12 @@ impl Light {
             Self::Portal(l) => l.sample_li(p, u, w),
             Self::Goniometric(l) => l.sample_li(p, w),
             Self::Projection(l) => l.sample_li(p, w),
+            // has no density per solid angle alone
+            Self::Volume(_) => None,
         }
     }
 
-    /// Draws a point of the light in area; `None` for lights at infinity.
+    /// Draws a point of the light in area; `None` for lights at infinity and for media.
     #[inline]
     pub fn sample_position(&self, accel: &Accel, u: [f32; 2]) -> Option<PositionSample> {
         let at = |p| PositionSample { target: Target::free(p), uv: [0.0; 2] };
@@ -142,7 +148,7 @@ impl Light {
             Self::Spot(l) => Some(at(l.p)),
             Self::Goniometric(l) => Some(at(l.p)),
             Self::Projection(l) => Some(at(l.p())),
-            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) | Self::Portal(_) => None,
+            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) | Self::Portal(_) | Self::Volume(_) => None,
         }
     }
 
@@ -160,7 +166,9 @@ impl Light {
             Self::Spot(l) => l.intensity_along(d, w),
             Self::Goniometric(l) => l.intensity_along(d, w),
             Self::Projection(l) => l.intensity_along(d, w),
-            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) | Self::Portal(_) => Spectrum::ZERO,
+            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) | Self::Portal(_) | Self::Volume(_) => {
+                Spectrum::ZERO
+            }
         }
     }
 
@@ -175,6 +183,7 @@ impl Light {
             | Self::Goniometric(_)
             | Self::Projection(_) => 1.0,
             Self::Infinite(_) | Self::Image(_) | Self::Portal(_) => self.pdf_infinite(p, wi),
+            Self::Volume(_) => 0.0,
         }
     }
 
@@ -224,7 +233,7 @@ impl Light {
 
     /// True for points and single directions.
     pub fn is_delta(&self) -> bool {
-        !matches!(self, Self::Area(_)) && !self.is_sky()
+        !matches!(self, Self::Area(_) | Self::Volume(_)) && !self.is_sky()
     }
 
     /// True when no ray of chance can meet the light.
@@ -237,8 +246,13 @@ impl Light {
         matches!(self, Self::Infinite(_) | Self::Image(_) | Self::Portal(_))
     }
 
-    /// True for lights of finite extent.
+    /// True for surfaces and points of finite extent.
     pub fn is_local(&self) -> bool {
+        self.has_place() && !matches!(self, Self::Volume(_))
+    }
+
+    /// True for all that is not at infinity.
+    pub const fn has_place(&self) -> bool {
         !matches!(self, Self::Distant(_)) && !self.is_sky()
     }
 
@@ -255,6 +269,7 @@ impl Light {
             Self::Distant(_) => disk,
             Self::Infinite(_) | Self::Image(_) => 4.0 * PI * disk,
             Self::Portal(l) => PI * f64::from(l.area()),
+            Self::Volume(l) => 4.0 * PI * l.cross_section(),
         }
     }
 
@@ -270,6 +285,7 @@ impl Light {
             Self::Portal(l) => l.mean_emission(),
             Self::Goniometric(l) => &l.intensity,
             Self::Projection(l) => l.mean_emission(),
+            Self::Volume(l) => l.spectrum(),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! All lights of a scene and the choice among them: in proportion to power, with a floor for the weak, or with a tree
 //! over those of finite extent that knows where they are.
 
-use super::{Light, bounds::LightBounds, tree::LightTree};
-use crate::ids::LightId;
+use super::{Light, VolumeLight, bounds::LightBounds, tree::LightTree};
+use crate::ids::{LightId, MediumId};
 use tyndall_base::{Vec3, distribution::Alias};
 use tyndall_geometry::Accel;
 use tyndall_spectral::Emission;
@@ -25,6 +25,18 @@ pub enum Selection {
     Uniform,
 }
 
+/// Which media that emit are lights, too; see [`VolumeLight`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MediumLights {
+    /// None.
+    Off,
+    /// For points outside the box of what emits.
+    #[default]
+    Auto,
+    /// For all points.
+    Always,
+}
+
 /// A light that was chosen and the probability of the choice.
 #[derive(Clone, Copy, Debug)]
 pub struct Selected {
@@ -39,6 +51,7 @@ pub struct Selected {
 pub struct LightSet {
     lights: Vec<Light>,
     infinite: Vec<LightId>,
+    volumes: Vec<(MediumId, LightId)>,
     all: Option<Choice>,
     local: Option<Choice>,
     /// The tree over the local ones, the choice among the others, and the probability of the others.
@@ -87,9 +100,14 @@ impl LightSet {
     pub fn new(lights: Vec<Light>, scene_radius: f32, weigh: &dyn Fn(&Emission) -> f64) -> Self {
         let powers: Vec<f64> = lights.iter().map(|l| l.extent(scene_radius) * weigh(l.spectrum())).collect();
         let infinite = (0..lights.len()).filter(|&i| lights[i].is_sky()).map(|i| LightId(i as u32)).collect();
+        let volume = |(i, l): (usize, &Light)| match l {
+            Light::Volume(l) => Some((l.medium(), LightId(i as u32))),
+            _ => None,
+        };
+        let volumes = lights.iter().enumerate().filter_map(volume).collect();
         let all = Choice::new(&powers, |_| true);
         let local = Choice::new(&powers, |i| lights[i].is_local());
-        Self { lights, infinite, all, local, spatial: None }
+        Self { lights, infinite, volumes, all, local, spatial: None }
     }
 
     /// The same lights, chosen by `selection`; `weigh` as for [`Self::new`].
@@ -116,10 +134,11 @@ impl LightSet {
     fn spatial(&self, accel: &Accel, powers: &[f64]) -> Option<Spatial> {
         let bounds = |(i, l): (usize, &Light)| Some((i as u32, LightBounds::of(l, accel, powers[i])?));
         let local: Vec<_> = self.lights.iter().enumerate().filter_map(bounds).collect();
-        if local.len() < FEW {
+        // media know where they send light, even few of them
+        if local.len() < FEW && self.volumes.is_empty() {
             return None;
         }
-        let is_local: Vec<bool> = self.lights.iter().map(Light::is_local).collect();
+        let is_local: Vec<bool> = self.lights.iter().map(Light::has_place).collect();
         let sum = |local: bool| -> f64 {
             powers.iter().zip(&is_local).filter(|(_, l)| **l == local).map(|(p, _)| *p).sum()
         };
@@ -170,6 +189,16 @@ impl LightSet {
         self.lights.is_empty()
     }
 
+    /// The light that medium `id` is, if it is one.
+    #[inline(always)]
+    pub fn of_medium(&self, id: MediumId) -> Option<(LightId, &VolumeLight)> {
+        let (_, light) = self.volumes.iter().find(|(medium, _)| *medium == id)?;
+        match self.get(*light) {
+            Light::Volume(volume) => Some((*light, volume)),
+            _ => None,
+        }
+    }
+
     /// Lights that rays which leave the scene meet.
     pub fn infinite(&self) -> &[LightId] {
         &self.infinite
@@ -207,14 +236,21 @@ impl LightSet {
 }
 
 impl Spatial {
+    /// Share of the lights at infinity: all of it where no other sends anything.
+    #[inline(always)]
+    fn far_share(&self, p: Vec3) -> f32 {
+        if self.far.is_some() && self.tree.is_dark(p) { 1.0 } else { self.far_share }
+    }
+
     #[inline(never)]
     fn select(&self, p: Vec3, n: Vec3, u: f32) -> Option<Selected> {
-        if u < self.far_share {
-            let far = self.far.as_ref()?.select(u / self.far_share);
-            return Some(Selected { pmf: far.pmf * self.far_share, ..far });
+        let far_share = self.far_share(p);
+        if u < far_share {
+            let far = self.far.as_ref()?.select(u / far_share);
+            return Some(Selected { pmf: far.pmf * far_share, ..far });
         }
-        let rest = 1.0 - self.far_share;
-        let u = ((u - self.far_share) / rest).clamp(0.0, 1.0 - f32::EPSILON);
+        let rest = 1.0 - far_share;
+        let u = ((u - far_share) / rest).clamp(0.0, 1.0 - f32::EPSILON);
         let (light, pmf) = self.tree.select(p, n, u)?;
         Some(Selected { id: LightId(light), pmf: pmf * rest })
     }
@@ -224,7 +260,7 @@ impl Spatial {
         if self.is_local[id.index()] {
             return self.tree.pmf(p, n, id.0) * (1.0 - self.far_share);
         }
-        self.far.as_ref().map_or(0.0, |far| far.pmf[id.index()] * self.far_share)
+        self.far.as_ref().map_or(0.0, |far| far.pmf[id.index()] * self.far_share(p))
     }
 }
 

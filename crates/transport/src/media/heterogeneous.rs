@@ -191,6 +191,54 @@ impl Heterogeneous {
         with_model!(&self.model, m => m.detail() * self.unit)
     }
 
+    /// Runs `body` with a function that tells what a point of the grid's box emits, `sigma_a le`.
+    pub(crate) fn with_emission<const N: usize, R>(
+        &self,
+        w: &Wavelengths<N>,
+        body: impl FnOnce(&dyn Fn(Vec3) -> Spectrum<N>) -> R,
+    ) -> R {
+        with_model!(&self.model, m => {
+            let prepared = m.prepare(w);
+            body(&|p| m.at(p, &prepared).emitted)
+        })
+    }
+
+    /// What a point of the world emits, `sigma_a le` \[W m^-3 sr^-1 nm^-1\], and the majorant \[1/m\] there; `None` outside.
+    #[inline(never)]
+    pub fn glow_at<const N: usize>(&self, p: Vec3, w: &Wavelengths<N>) -> Option<[Spectrum<N>; 2]> {
+        let p = self.to_grid.point(p);
+        if !self.majorants.bounds().contains(p) {
+            return None;
+        }
+        Some(with_model!(&self.model, m => {
+            let prepared = m.prepare(w);
+            [m.at(p, &prepared).emitted, m.unit(&prepared) * self.majorants.at(p).max]
+        }))
+    }
+
+    /// Volume in the world of a unit of volume of the grid's space.
+    pub(crate) fn volume_scale(&self) -> f64 {
+        let axis = |v: [f32; 3]| self.to_world.vector(Vec3::from(v));
+        let (x, y, z) = (axis([1.0, 0.0, 0.0]), axis([0.0, 1.0, 0.0]), axis([0.0, 0.0, 1.0]));
+        f64::from(x.cross(y).dot(z).abs())
+    }
+
+    /// Length in the grid's space over which the medium varies.
+    pub(crate) fn grid_detail(&self) -> f32 {
+        with_model!(&self.model, m => m.detail())
+    }
+
+    /// A point of the grid's space in the world.
+    #[inline(always)]
+    pub(crate) fn world_of(&self, p: Vec3) -> Vec3 {
+        self.to_world.point(p)
+    }
+
+    /// A box of the grid's space in the world.
+    pub(crate) fn to_world_bounds(&self, b: Bounds3) -> Bounds3 {
+        self.to_world.bounds(b)
+    }
+
     /// A point of the world in the space of the grid.
     #[inline(always)]
     pub(crate) fn to_grid(&self, p: Vec3) -> Vec3 {

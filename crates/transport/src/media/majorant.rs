@@ -114,6 +114,19 @@ impl Majorants {
         self.levels.last().map_or(0.0, |l| l.cells[0].max)
     }
 
+    /// The bounds that a walk has at the point `p` of the box.
+    #[inline]
+    pub fn at(&self, p: Vec3) -> Extrema {
+        let dims = self.levels[0].dims;
+        let v = p - self.origin;
+        let mut cell = [0; 3];
+        for k in 0..3 {
+            cell[k] = ((v[k] / self.edge[k]).max(0.0) as usize).min(dims[k] - 1);
+        }
+        let level = usize::from(self.walked[self.index(cell)]);
+        self.levels[level].at(cell.map(|c| c >> level))
+    }
+
     /// Walks the ray `o + t d`, `t` in \[0, t_max\].
     #[inline]
     pub fn walk(&self, o: Vec3, d: Vec3, t_max: f32) -> Walker<'_> {

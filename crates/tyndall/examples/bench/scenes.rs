@@ -34,6 +34,7 @@ pub const SCENES: &[BenchScene] = &[
     scene("tri-band", "the fog under a fluorescent lamp (F11)"),
     scene("cloud-box", "albedo 0.97 to 0.999, 7 to 10 mean free paths across"),
     scene("small-lamp", "thin bright fog around a small ball"),
+    scene("flame", "a small flame in a dark room"),
     BenchScene { delta_lights: true, ..scene("beam", "spotlight of 8 degrees through thin fog") },
     open("cloud-grid", "cloud of 64^3 voxels, albedo 0.7 to 0.99, sky"),
     BenchScene { large: true, ..scene("room", "textures, rough metal, two lamps") },

@@ -38,6 +38,8 @@ pub const TECHNIQUES: &[Variant] = &[
     },
     settings("exact transmittance off", "dark-fog", |s| s.exact_transmittance = false),
     settings("survival off", "dark-fog", |s| s.survival = false),
+    options("media are no lights", "flame", |o| o.set.push("integrator.mediumlights=off".into())),
+    options("media are lights everywhere", "", |o| o.set.push("integrator.mediumlights=always".into())),
     settings("equiangular off", "small-lamp", |s| s.equiangular = Equiangular::Off),
     settings("equiangular always", "cloud-box", |s| s.equiangular = Equiangular::Always),
     settings("equiangular on first segments only", "small-lamp", |s| s.equiangular_depth = 0),

@@ -51,6 +51,7 @@ const fn kind(light: &Light) -> &'static str {
         Light::Portal(_) => "infinite, portal",
         Light::Goniometric(_) => "goniometric",
         Light::Projection(_) => "projection",
+        Light::Volume(_) => "medium",
     }
 }
 

@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod embers;
 mod flights;
 mod invariance;
 mod known;

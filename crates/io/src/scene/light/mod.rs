@@ -5,8 +5,10 @@ mod goniometric;
 mod image;
 mod infinite;
 mod projection;
+mod volume;
 
 pub use area::area;
+pub use volume::volumes;
 
 use super::{
     collect::{Collected, LightRecord},
