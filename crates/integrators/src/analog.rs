@@ -9,8 +9,9 @@ use tyndall_geometry::Ray;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{
     MediumId, Scene,
-    media::{Heterogeneous, Homogeneous, Medium},
+    media::{Heterogeneous, Medium, MediumProperties},
     sampler::PathSampler,
+    texture::TextureContext,
 };
 
 /// Radiance along `ray` at the hero's wavelength; other lanes are zero.
@@ -24,6 +25,7 @@ pub fn li<const N: usize>(
 ) -> Spectrum<N> {
     let mut l = Spectrum::ZERO;
     let mut medium = scene.camera_medium;
+    let mut entry = TextureContext::ORIGIN; // where the path entered the medium
     let mut from = ray.o; // where the ray took its direction
     let mut depth = 0;
     let mut radiance_scale = 1.0; // radiance over n^2 is what refraction conserves
@@ -35,7 +37,8 @@ pub fn li<const N: usize>(
         // a collision in the medium, if it comes before the surface
         if let Some(m) = scene.medium(medium) {
             let flight = match m {
-                Medium::Homogeneous(m) => homogeneous(m, t_hit, w, sampler),
+                Medium::Homogeneous(m) => homogeneous(&m.at(w), t_hit, sampler),
+                Medium::Painted(m) => homogeneous(&m.at(&entry, w), t_hit, sampler),
                 Medium::Heterogeneous(m) => delta_tracking(m, &ray, t_hit, w, &mut sampler.stream()),
             };
             if let Some(collision) = flight {
@@ -54,6 +57,7 @@ pub fn li<const N: usize>(
                 let (uc, u) = (sampler.next_1d(), sampler.next_2d());
                 let wi = match m {
                     Medium::Homogeneous(m) => Some(m.phase.sample(-ray.d, [u.x, u.y], w).wi),
+                    Medium::Painted(m) => Some(m.phase.sample(-ray.d, [u.x, u.y], w).wi),
                     Medium::Heterogeneous(m) => m.scatter(p, -ray.d, uc, [u.x, u.y], w),
                 };
                 let Some(wi) = wi else { break };
@@ -103,7 +107,10 @@ pub fn li<const N: usize>(
             }
             frame.from_local(b.wi)
         };
-        medium = isect.medium_towards(wi, medium);
+        let next = isect.medium_towards(wi, medium);
+        if next != medium {
+            (medium, entry) = (next, TextureContext::of(s));
+        }
         if !isect.material.is_interface() {
             from = s.p;
         }
@@ -125,12 +132,10 @@ enum Fate {
 
 /// The first collision before `t_max` where the coefficients are the same everywhere.
 fn homogeneous<const N: usize>(
-    m: &Homogeneous,
+    m: &MediumProperties<'_, N>,
     t_max: f32,
-    w: &Wavelengths<N>,
     sampler: &mut PathSampler,
 ) -> Option<Collision> {
-    let m = m.at(w);
     let (sigma_a, sigma_s) = (m.sigma_a[0], m.sigma_s[0]);
     let t = warp::sample_exponential(sampler.next_1d(), sigma_a + sigma_s);
     if t >= t_max {

@@ -9,6 +9,7 @@ use crate::{
     weight::{PathWeight, divide},
 };
 use tyndall_base::Vec3;
+use tyndall_geometry::SurfacePoint;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{
     LightId, MediumId, Scene,
@@ -45,6 +46,8 @@ pub struct Scatterer<'a, 's, S, F, const N: usize> {
     pub eval: F,
     /// Equiangular technique of a medium vertex.
     pub rival: Option<Rival>,
+    /// Where a shadow ray enters another medium; `None` where it stays in that of the path.
+    pub surface: Option<&'a SurfacePoint>,
     /// The medium that the path is in.
     pub known: Place<'a, 's, N>,
 }
@@ -69,7 +72,7 @@ where
         let inside = if medium == self.known.medium {
             self.known.inside
         } else {
-            fresh = Inside::of(scene, medium, w);
+            fresh = Inside::entered(scene, medium, self.surface, w);
             fresh.as_ref()
         };
         shadow(scene, settings, o, Place { medium, inside, time: self.known.time }, end, w, sampler)

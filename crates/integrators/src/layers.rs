@@ -159,10 +159,11 @@ impl<const N: usize> FirstSurface<N> {
         let mut found =
             Self { distance: 0.0, normal: Vec3::ZERO, albedo: Spectrum::ZERO, transmittance: Spectrum::ONE };
         let (mut ray, mut medium, mut travelled) = (*ray, scene.camera_medium, 0.0);
+        let mut inside = Inside::of(scene, medium, w);
         loop {
             let hit = scene.intersect(&ray);
             let t = hit.as_ref().map_or(f32::INFINITY, |h| h.t);
-            if let Some(inside) = Inside::of(scene, medium, w) {
+            if let Some(inside) = inside {
                 // an unbounded segment of vacuum-like lanes stays open: 0 * infinity is no thickness
                 tau += match inside.varying {
                     None => inside.sigma_t.map(|s| if s > 0.0 { s * t } else { 0.0 }),
@@ -181,6 +182,7 @@ impl<const N: usize> FirstSurface<N> {
                 return found;
             }
             medium = isect.medium_towards(ray.d, medium);
+            inside = Inside::entered(scene, medium, Some(&isect.surface), w);
             ray = Ray { time: ray.time, ..Ray::new(isect.surface.origin(ray.d), ray.d) };
         }
     }

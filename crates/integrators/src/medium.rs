@@ -1,11 +1,13 @@
 //! The medium a path is in; free flight and transmittance at the path's wavelengths where it is homogeneous.
 
 use crate::{settings::Settings, weight::exp};
+use tyndall_geometry::SurfacePoint;
 use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{
     MediumId, Scene,
     media::{Heterogeneous, Medium},
+    texture::TextureContext,
 };
 
 /// Coefficients \[1/m\] of the medium a path is in, looked up once on entering it.
@@ -26,12 +28,29 @@ pub struct Inside<'s, const N: usize> {
 }
 
 impl<'s, const N: usize> Inside<'s, N> {
-    /// The medium `id` at the wavelengths `w`; `None` in vacuum.
+    /// The medium `id` at the wavelengths `w` for a path that begins in it; `None` in vacuum.
     #[inline(always)]
     pub fn of(scene: &'s Scene, id: MediumId, w: &Wavelengths<N>) -> Option<Self> {
+        Self::entered(scene, id, None, w)
+    }
+
+    /// The medium `id` at the wavelengths `w` for a path that entered it at `entry`; `None` in vacuum.
+    #[inline(always)]
+    pub fn entered(
+        scene: &'s Scene,
+        id: MediumId,
+        entry: Option<&SurfacePoint>,
+        w: &Wavelengths<N>,
+    ) -> Option<Self> {
         Some(match scene.medium(id)? {
             Medium::Homogeneous(m) => {
                 let m = m.at(w);
+                let (sigma_a, sigma_s, sigma_t) = (m.sigma_a, m.sigma_s, m.sigma_t());
+                Self { sigma_a, sigma_s, sigma_t, le: m.le, phase: m.phase, varying: None }
+            }
+            Medium::Painted(m) => {
+                // no path begins inside: such media have no name that a camera could be put into
+                let m = m.at(&entry.map_or(TextureContext::ORIGIN, TextureContext::of), w);
                 let (sigma_a, sigma_s, sigma_t) = (m.sigma_a, m.sigma_s, m.sigma_t());
                 Self { sigma_a, sigma_s, sigma_t, le: m.le, phase: m.phase, varying: None }
             }

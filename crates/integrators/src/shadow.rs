@@ -70,7 +70,7 @@ pub fn shadow<const N: usize>(
         let Some(hit) = hit else { return Some(s) };
         let isect = scene.interaction(&ray, &hit);
         s.end = isect.medium_towards(ray.d, s.end);
-        inside = Inside::of(scene, s.end, w);
+        inside = Inside::entered(scene, s.end, Some(&isect.surface), w);
         let Some(rest) = towards(isect.surface.origin(ray.d), &end, start.time) else { return Some(s) };
         ray = rest;
     }

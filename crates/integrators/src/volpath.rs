@@ -278,6 +278,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     (phase, mixed(steering.as_ref(), phase, wi))
                 },
                 rival: self.rival,
+                surface: None,
                 known: Place { medium, inside: Some(inside), time: self.ray.time },
             };
             self.direct(&vertex, sampler, seen);
@@ -367,6 +368,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     (bsdf.eval(wo, local) * local.z.abs(), mixed(steering.as_ref(), bsdf.pdf(wo, local), wi))
                 },
                 rival: None,
+                surface: Some(&isect.surface),
                 known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
             };
             self.direct(&vertex, sampler, seen);
@@ -397,7 +399,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             }
             self.eta_scale *= s.eta * s.eta;
         }
-        self.go(isect.surface.origin(wi), wi, isect.medium_towards(wi, self.medium));
+        self.go(&isect, wi);
         self.survives(sampler)
     }
 
@@ -429,18 +431,18 @@ impl<'s, const N: usize> Walk<'s, N> {
     fn cross(&mut self, isect: &Interaction<'_>, t: f32, seen: &mut impl PathObserver<N>) -> bool {
         self.watch(Event::Boundary, isect.surface.p, isect.surface.ng, t, Spectrum::ONE, seen);
         self.crossings += 1;
-        let d = self.ray.d;
-        self.go(isect.surface.origin(d), d, isect.medium_towards(d, self.medium));
+        self.go(isect, self.ray.d);
         self.crossings <= MAX_CROSSINGS
     }
 
-    /// Continues from `o` along `d` in `medium`.
+    /// Continues from a surface along `d`, in the medium there.
     #[inline(always)]
-    fn go(&mut self, o: Vec3, d: Vec3, medium: MediumId) {
-        self.ray = Ray { time: self.ray.time, ..Ray::new(o, d) };
+    fn go(&mut self, isect: &Interaction<'_>, d: Vec3) {
+        self.ray = Ray { time: self.ray.time, ..Ray::new(isect.surface.origin(d), d) };
+        let medium = isect.medium_towards(d, self.medium);
         if medium != self.medium {
             self.medium = medium;
-            self.inside = Inside::of(self.scene, medium, self.w);
+            self.inside = Inside::entered(self.scene, medium, Some(&isect.surface), self.w);
         }
     }
 

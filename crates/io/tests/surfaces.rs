@@ -41,6 +41,10 @@ fn materials() {
         r#"Material "subsurface" "rgb sigma_a" [0.1 0.2 0.3] "float sigma_s" 2"#,
         r#"Material "subsurface" "string name" "Skin1" "float scale" 10"#,
         r#"Material "subsurface""#,
+        r#"Texture "skin" "spectrum" "checkerboard" "rgb tex1" [0.8 0.5 0.4] "rgb tex2" [0.6 0.3 0.3]
+           Material "subsurface" "texture reflectance" "skin" "rgb mfp" [1 0.5 0.2] "float scale" 2"#,
+        r#"Texture "soot" "spectrum" "constant" "rgb value" [0.1 0.2 0.3]
+           Material "subsurface" "texture sigma_a" "soot" "float sigma_s" 2"#,
         r#"Texture "hills" "float" "fbm" Material "diffuse" "texture displacement" "hills""#,
         r#"MakeNamedMaterial "a" "string type" "diffuse" MakeNamedMaterial "b" "string type" "mix" "string materials" ["a" "interface"]
            Material "mix" "string materials" ["a" "b"] "float amount" 0.25"#,
@@ -57,6 +61,15 @@ fn materials() {
         "a mix of itself",
     );
     refused("", r#"Material "subsurface" "rgb sigma_a" [1 1 1]"#, "sigma_s");
+    let paint = r#"Texture "paint" "spectrum" "constant" "rgb value" [0.1 0.2 0.3]"#;
+    for (given, why) in [
+        (r#""texture sigma_s" "paint""#, "sigma_a"),
+        (r#""texture mfp" "paint""#, "reflectance"),
+        (r#""texture reflectance" "paint" "string name" "Skin1""#, "both \"name\""),
+        (r#""texture reflectance" "pain""#, "pain"),
+    ] {
+        refused("", &format!("{paint} Material \"subsurface\" {given}"), why);
+    }
     refused("", r#"Material "coateddiffuse" "integer nsamples" 0"#, "between 1 and 10000");
 }
 

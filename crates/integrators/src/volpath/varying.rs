@@ -85,6 +85,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     (phase, mixed(steering.as_ref(), phase, wi))
                 },
                 rival: None,
+                surface: None,
                 known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
             };
             self.direct(&vertex, sampler, seen);

@@ -6,10 +6,12 @@ mod heterogeneous;
 mod homogeneous;
 pub mod majorant;
 pub mod model;
+mod painted;
 
 pub use density::{Bricks, Cloud, Dense, Edge};
 pub use heterogeneous::{Heterogeneous, Model, Visitor};
 pub use homogeneous::Homogeneous;
+pub use painted::{Paint, Painted, albedo_of};
 
 use std::sync::Arc;
 use tyndall_scatter::phase::PhaseFunction;
@@ -43,6 +45,8 @@ pub enum Medium {
     Homogeneous(Homogeneous),
     /// Varying in space.
     Heterogeneous(Arc<Heterogeneous>),
+    /// The same everywhere for a path, as the point says where it entered.
+    Painted(Box<Painted>),
 }
 
 impl Medium {
@@ -51,6 +55,7 @@ impl Medium {
         match self {
             Self::Homogeneous(m) => m.le.as_ref(),
             Self::Heterogeneous(m) => m.emission(),
+            Self::Painted(_) => None,
         }
     }
 
@@ -59,7 +64,7 @@ impl Medium {
     pub fn homogeneous<const N: usize>(&self, w: &Wavelengths<N>) -> Option<MediumProperties<'_, N>> {
         match self {
             Self::Homogeneous(m) => Some(m.at(w)),
-            Self::Heterogeneous(_) => None,
+            Self::Heterogeneous(_) | Self::Painted(_) => None,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Texture coordinates of a surface point, after pbrt's mappings.
 
 use tyndall_base::{Vec2, Vec3, math, vec::vec2};
-use tyndall_geometry::Transform;
+use tyndall_geometry::{SurfacePoint, Transform};
 
 /// The surface point that a texture is evaluated at.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +12,17 @@ pub struct TextureContext {
     pub n: Vec3,
     /// Parametric coordinates.
     pub uv: Vec2,
+}
+
+impl TextureContext {
+    /// No point of a surface: all coordinates are zero.
+    pub const ORIGIN: Self = Self { p: Vec3::ZERO, n: Vec3::ZERO, uv: Vec2 { x: 0.0, y: 0.0 } };
+
+    /// The point `s`.
+    #[inline(always)]
+    pub fn of(s: &SurfacePoint) -> Self {
+        Self { p: s.p, n: s.ng, uv: s.uv }
+    }
 }
 
 /// From a surface point to (s, t).

@@ -1,11 +1,17 @@
 //! Media: coefficients, albedo, optical depth.
 
 use serde::Serialize;
-use tyndall_base::{Vec3, vec::vec3};
+use tyndall_base::{
+    Vec3,
+    vec::{vec2, vec3},
+};
 use tyndall_geometry::Ray;
 use tyndall_io::LoadedScene;
 use tyndall_spectral::{LambdaRange, Wavelengths};
-use tyndall_transport::media::{Heterogeneous, Medium};
+use tyndall_transport::{
+    media::{Heterogeneous, Medium, Painted},
+    texture::TextureContext,
+};
 
 /// Wavelengths at which media that vary in space are looked at.
 const SPECTRAL_POINTS: usize = 41;
@@ -54,6 +60,7 @@ fn medium(name: &str, medium: &Medium, range: LambdaRange, diagonal: f32) -> Med
             }
         }
         Medium::Heterogeneous(m) => varying(m, range, &mut add),
+        Medium::Painted(m) => painted(m, range, diagonal, &mut add),
     }
     let [sigma_a, sigma_s, sigma_t, albedo, mean_cosine, optical_depth] = all.map(|s| [s.0, s.1]);
     MediumInfo {
@@ -61,6 +68,7 @@ fn medium(name: &str, medium: &Medium, range: LambdaRange, diagonal: f32) -> Med
         class: match medium {
             Medium::Homogeneous(_) => "homogeneous".into(),
             Medium::Heterogeneous(m) => m.class().into(),
+            Medium::Painted(_) => "by textures".into(),
         },
         sigma_a,
         sigma_s,
@@ -97,6 +105,22 @@ fn varying(m: &Heterogeneous, range: LambdaRange, add: &mut impl FnMut([f32; 6])
             let point = m.at(p, &w);
             let (a, s) = (point.sigma_a.hero(), point.sigma_s.hero());
             add([a, s, a + s, albedo(s, a + s), m.mean_cosine(p, &w), depth]);
+        }
+    }
+}
+
+/// Coefficients for entries all over the unit square of texture coordinates.
+fn painted(m: &Painted, range: LambdaRange, diagonal: f32, add: &mut impl FnMut([f32; 6])) {
+    let step = range.width() / (SPECTRAL_POINTS - 1) as f32;
+    for i in 0..SPECTRAL_POINTS {
+        let lambda = (range.min + step * i as f32).min(range.max);
+        let w = Wavelengths::continuum([lambda], [1.0]);
+        for cell in 0..LATTICE * LATTICE {
+            let at = |n: usize| ((n % LATTICE) as f32 + 0.5) / LATTICE as f32;
+            let uv = vec2(at(cell), at(cell / LATTICE));
+            let inside = m.at(&TextureContext { uv, ..TextureContext::ORIGIN }, &w);
+            let (a, s, t) = (inside.sigma_a.hero(), inside.sigma_s.hero(), inside.sigma_t().hero());
+            add([a, s, t, albedo(s, t), m.g, t * diagonal]);
         }
     }
 }

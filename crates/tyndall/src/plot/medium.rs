@@ -9,7 +9,10 @@ use crate::{
 use std::path::Path;
 use tyndall_base::{Vec3, vec::vec3};
 use tyndall_spectral::{LambdaRange, Wavelengths};
-use tyndall_transport::media::{Heterogeneous, Medium};
+use tyndall_transport::{
+    media::{Heterogeneous, Medium, Painted},
+    texture::TextureContext,
+};
 
 /// Wavelengths of the polar plot \[nm\]; those outside the range are left out.
 const WAVELENGTHS: [f32; 4] = [400.0, 500.0, 600.0, 700.0];
@@ -87,12 +90,15 @@ fn polar(name: &str, place: &Place<'_>, range: LambdaRange) -> String {
 enum Place<'a> {
     Anywhere(&'a Medium),
     At(&'a Heterogeneous, Vec3),
+    /// Where texture coordinates are zero.
+    Corner(&'a Painted),
 }
 
 impl<'a> Place<'a> {
     fn of(medium: &'a Medium, range: LambdaRange) -> Self {
         match medium {
             Medium::Homogeneous(_) => Self::Anywhere(medium),
+            Medium::Painted(m) => Self::Corner(m),
             Medium::Heterogeneous(m) => Self::At(m, densest(m, 0.5 * (range.min + range.max))),
         }
     }
@@ -108,6 +114,10 @@ impl<'a> Place<'a> {
                 let point = m.at(*p, &w);
                 (point.sigma_a.hero(), point.sigma_s.hero())
             }
+            Self::Corner(m) => {
+                let inside = m.at(&TextureContext::ORIGIN, &w);
+                (inside.sigma_a.hero(), inside.sigma_s.hero())
+            }
         };
         (f64::from(a), f64::from(s))
     }
@@ -117,6 +127,7 @@ impl<'a> Place<'a> {
         f64::from(match self {
             Self::Anywhere(m) => m.homogeneous(&w).map_or(0.0, |m| m.phase.mean_cosine(lambda)),
             Self::At(m, p) => m.mean_cosine(*p, &w),
+            Self::Corner(m) => m.g,
         })
     }
 
@@ -129,6 +140,7 @@ impl<'a> Place<'a> {
         f64::from(match self {
             Self::Anywhere(m) => m.homogeneous(&w).map_or(0.0, |m| m.phase.eval(wo, wi, &w).hero()),
             Self::At(m, p) => m.phase(*p, wo, wi, &w).hero(),
+            Self::Corner(m) => m.phase.eval(wo, wi, &w).hero(),
         })
     }
 }

@@ -7,5 +7,6 @@ mod flights;
 mod invariance;
 mod known;
 mod media;
+mod painted;
 mod sparse;
 mod table;

@@ -89,7 +89,7 @@ pub(super) fn material(
         "hair" => Some(Material::Hair(Box::new(hair::hair(ctx, p, textures)?))),
         "measured" => Some(Material::Measured(measured::material(ctx, p)?)),
         "subsurface" => {
-            filling = Some(subsurface::medium(ctx, p)?);
+            filling = Some(subsurface::medium(ctx, p, textures)?);
             let (eta, roughness) = (eta(ctx, p, "eta", 1.33)?, roughness(p, textures, "")?);
             Some(Material::Dielectric(DielectricMaterial { eta, roughness }))
         }

@@ -17,7 +17,7 @@ pub fn medium(ctx: &Context<'_>, declared: &Declared, known: &Known<'_>) -> Resu
     let find = |name: &tyndall_pbrt::Text| -> Result<Arc<Heterogeneous>, Error> {
         match known(name.as_str()) {
             Some(Medium::Heterogeneous(m)) => Ok(m.clone()),
-            Some(Medium::Homogeneous(_)) => {
+            Some(Medium::Homogeneous(_) | Medium::Painted(_)) => {
                 let got = format!("\"{}\", which is homogeneous", name.as_str());
                 let hint =
                     "a uniformgrid of one voxel with \"string edge\" \"clamp\" is homogeneous in its box";
