@@ -32,6 +32,8 @@ pub mod attribute {
     pub const FREEDOM: &str = "tyndall:degreesOfFreedom";
     /// Everything that the bits depend on, as `name: value`.
     pub const SETTINGS: &str = "tyndall:settings";
+    /// In a picture: that and how it was denoised.
+    pub const DENOISED: &str = "tyndall:denoised";
     /// Mean number of samples per pixel.
     pub const SAMPLES: &str = "samplesPerPixel";
 }
@@ -121,12 +123,16 @@ impl Image {
 
     /// Luminance Y of every pixel, in the unit of the image; `None` without R, G, B.
     pub fn luminance(&self) -> Option<Vec<f32>> {
+        self.values.rgb().map(|rgb| self.luminance_of(rgb))
+    }
+
+    /// Luminance Y of other planes R, G, B in the colour space of the image.
+    pub fn luminance_of(&self, [r, g, b]: [&[f32]; 3]) -> Vec<f32> {
         let y = ColourSpace::get(self.space()).xyz_from_rgb.0[1];
-        let [r, g, b] = self.values.rgb()?;
         let dot = |((r, g), b): ((&f32, &f32), &f32)| {
             (y[0] * f64::from(*r) + y[1] * f64::from(*g) + y[2] * f64::from(*b)) as f32
         };
-        Some(r.iter().zip(g).zip(b).map(dot).collect())
+        r.iter().zip(g).zip(b).map(dot).collect()
     }
 }
 

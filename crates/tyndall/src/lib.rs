@@ -16,6 +16,7 @@
 
 pub mod camera_matrices;
 pub mod cube;
+pub mod denoise;
 pub mod diff;
 pub mod error;
 pub mod existing;

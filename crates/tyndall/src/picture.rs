@@ -1,13 +1,20 @@
-//! An image as a picture for the eye: exposure, white point, colour space, one band, false colour.
+//! An image as a picture for the eye: exposure, white point, colour space, one band, false colour, denoised.
+
+mod source;
 
 use crate::{Error, Image, false_colour, image::attribute};
+use source::Source;
 use tyndall_base::math::f64 as math;
-use tyndall_files::image::{MetaValue, Pixels, PngOptions, spectral_channels};
+use tyndall_files::image::{MetaValue, Pixels, PngOptions};
 use tyndall_spectral::{
     ColourSpace, SpaceName,
     cie::LUMENS_PER_WATT,
     colour::{Matrix3, chromaticity, white_balance},
 };
+
+/// What a picture says of itself that was denoised.
+pub const DENOISED: &str =
+    "non-local means by the standard errors: for looking at, the numbers have no errors any more";
 
 /// What a picture shows.
 #[derive(Clone, Debug, Default)]
@@ -20,6 +27,8 @@ pub struct Look {
     pub band: Option<f64>,
     /// Show luminance \[cd/m^2\] over this interval in false colour.
     pub false_colour: Option<[f64; 2]>,
+    /// Denoise by the image's standard errors, on so many threads.
+    pub denoise: Option<usize>,
 }
 
 /// Share of the pixels that an automatic exposure keeps below white.
@@ -34,12 +43,15 @@ pub struct Picture {
     pub exposure: f64,
     /// True when the exposure was chosen by [`auto_exposure`].
     pub automatic: bool,
+    /// True when noise was taken out.
+    pub denoised: bool,
 }
 
 impl Picture {
     /// Options for a PNG file.
     pub fn png(&self) -> PngOptions {
-        PngOptions { exposure: self.exposure as f32, ..PngOptions::default() }
+        // grain that is left hides the steps of 8 bits
+        PngOptions { exposure: self.exposure as f32, dither: self.denoised, ..PngOptions::default() }
     }
 }
 
@@ -48,26 +60,37 @@ impl Picture {
 /// # Errors
 /// When the image lacks what the look asks for.
 pub fn picture(image: &Image, look: &Look, space: SpaceName) -> Result<Picture, Error> {
-    let shown = match (look.false_colour, look.band) {
-        (Some(range), _) => return false_picture(image, range),
-        (None, Some(nm)) => grey(image, nm)?,
-        (None, None) => colour(image, look.white, space)?,
+    let source = Source::of(image, look)?;
+    let mut picture = match look.false_colour {
+        Some(range) => false_picture(image, &source, range)?,
+        None => plain_picture(image, source, look, space)?,
     };
+    picture.denoised = look.denoise.is_some();
+    if picture.denoised {
+        picture.pixels.set(attribute::DENOISED, DENOISED);
+    }
+    Ok(picture)
+}
+
+fn plain_picture(image: &Image, source: Source, look: &Look, space: SpaceName) -> Result<Picture, Error> {
     let automatic = look.exposure.is_none();
-    let exposure = look.exposure.unwrap_or_else(|| automatic_stops(image, &shown, look.band.is_some()));
+    let exposure = look.exposure.unwrap_or_else(|| automatic_stops(image, &source));
+    let shown = match source {
+        Source::Band(plane) => [plane.clone(), plane.clone(), plane],
+        Source::Colour(rgb) => colour(image, rgb, look.white, space),
+    };
     let mut pixels = blank(image, shown)?;
     let note = if automatic { "chosen" } else { "given" };
     pixels.set("tyndall:exposure", format!("{exposure} stops, {note}"));
-    Ok(Picture { pixels, exposure, automatic })
+    Ok(Picture { pixels, exposure, automatic, denoised: false })
 }
 
 /// 0 stops for images normalised by pbrt's rule, whose white is 1. Radiance in W m^-2 sr^-1 has no white: there the
 /// exposure takes the 99th percentile of luminance to 1, rounded down to quarters of a stop.
-fn automatic_stops(image: &Image, shown: &[Vec<f32>; 3], band: bool) -> f64 {
-    let y = if band { Some(shown[0].clone()) } else { image.luminance() };
-    match y {
-        Some(y) if image.is_absolute() || band => auto_exposure(&y),
-        _ => 0.0,
+fn automatic_stops(image: &Image, source: &Source) -> f64 {
+    match source {
+        Source::Colour(_) if !image.is_absolute() => 0.0,
+        _ => auto_exposure(&source.luminance(image)),
     }
 }
 
@@ -84,21 +107,20 @@ pub fn auto_exposure(y: &[f32]) -> f64 {
 }
 
 /// R, G, B in another space, balanced if asked.
-fn colour(image: &Image, white: Option<[f64; 2]>, space: SpaceName) -> Result<[Vec<f32>; 3], Error> {
-    let rgb = image.values.rgb().ok_or_else(|| no_channel("R, G, B or Y"))?;
+fn colour(image: &Image, rgb: [Vec<f32>; 3], white: Option<[f64; 2]>, space: SpaceName) -> [Vec<f32>; 3] {
     let (from, to) = (ColourSpace::get(image.space()), ColourSpace::get(space));
     if from.name == to.name && white.is_none() {
-        return Ok(rgb.map(<[f32]>::to_vec));
+        return rgb;
     }
     let source_white = white.unwrap_or_else(|| chromaticity(from.white));
     let balance = white_balance(source_white, chromaticity(to.white));
     // a change of space alone keeps colours, but for a white of another chromaticity
     let balance = if white.is_none() && from.white == to.white { Matrix3::IDENTITY } else { balance };
     let matrix = to.rgb_from_xyz.times(&balance).times(&from.xyz_from_rgb);
-    Ok(converted(rgb, &matrix))
+    converted(&rgb, &matrix)
 }
 
-fn converted([r, g, b]: [&[f32]; 3], matrix: &Matrix3) -> [Vec<f32>; 3] {
+fn converted([r, g, b]: &[Vec<f32>; 3], matrix: &Matrix3) -> [Vec<f32>; 3] {
     let mut out = [(); 3].map(|()| Vec::with_capacity(r.len()));
     for i in 0..r.len() {
         let v = matrix.apply([r[i], g[i], b[i]].map(f64::from));
@@ -107,39 +129,14 @@ fn converted([r, g, b]: [&[f32]; 3], matrix: &Matrix3) -> [Vec<f32>; 3] {
     out
 }
 
-/// One band as grey.
-fn grey(image: &Image, nm: f64) -> Result<[Vec<f32>; 3], Error> {
-    let bands: Vec<_> =
-        spectral_channels(&image.values).into_iter().filter(|c| c.channel.name.starts_with("S0.")).collect();
-    let edges = image.band_edges();
-    let holds = |i: usize| match &edges {
-        Some(e) if e.len() == bands.len() + 1 => (e[i]..=e[i + 1]).contains(&nm),
-        _ => false,
-    };
-    let nearest = || {
-        let distance = |i: usize| (bands[i].lambda_nm - nm).abs();
-        (0..bands.len()).filter(|_| edges.is_none()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
-    };
-    let found = (0..bands.len()).find(|&i| holds(i)).or_else(nearest);
-    let Some(i) = found else {
-        let have = match (bands.first(), bands.last()) {
-            (Some(a), Some(b)) => format!("bands around {} to {} nm", a.lambda_nm, b.lambda_nm),
-            _ => "no spectral bands".into(),
-        };
-        let hint = "render with --bands FROM:TO:STEP around the wavelength";
-        return Err(Error::options(format!("--band {nm}: the image has {have}"), Some(hint.into())));
-    };
-    Ok([(); 3].map(|()| bands[i].channel.data.clone()))
-}
-
-fn false_picture(image: &Image, [low, high]: [f64; 2]) -> Result<Picture, Error> {
+fn false_picture(image: &Image, source: &Source, [low, high]: [f64; 2]) -> Result<Picture, Error> {
     if !image.is_absolute() {
         return Err(Error::options(
             "--false-colour: the image has no absolute unit, so it has no luminance in cd/m2",
             Some("\"bool absolute\" true on the scene's lights gives one".into()),
         ));
     }
-    let y = image.luminance().ok_or_else(|| no_channel("R, G, B"))?;
+    let y = source.luminance(image);
     let mut planes = [(); 3].map(|()| Vec::with_capacity(y.len()));
     for v in &y {
         let rgb = false_colour::of(f64::from(LUMENS_PER_WATT) * f64::from(*v), low, high);
@@ -147,7 +144,7 @@ fn false_picture(image: &Image, [low, high]: [f64; 2]) -> Result<Picture, Error>
     }
     let mut pixels = blank(image, planes)?;
     pixels.set("tyndall:falseColour", format!("{low} to {high} cd/m2, logarithmic"));
-    Ok(Picture { pixels, exposure: 0.0, automatic: false })
+    Ok(Picture { pixels, exposure: 0.0, automatic: false, denoised: false })
 }
 
 /// The planes in the image's frame, with what tells of its origin.
@@ -162,10 +159,6 @@ fn blank(image: &Image, [r, g, b]: [Vec<f32>; 3]) -> Result<Pixels, Error> {
         }
     }
     Ok(pixels)
-}
-
-fn no_channel(what: &str) -> Error {
-    Error::options(format!("the image has no channels {what}"), None)
 }
 
 #[cfg(test)]

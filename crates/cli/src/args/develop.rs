@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::Conflict;
-use super::value::{ImageFile, Interval, Pixel, Region, WhitePoint, finite};
+use super::value::{FileKind, ImageFile, Interval, Pixel, Region, WhitePoint, finite};
 
 /// Arguments of `tyndall develop`.
 #[derive(Args, Clone, Debug)]
@@ -16,6 +16,7 @@ numbers as a table.",
     after_help = "\
 Examples:
   tyndall develop fog.exr -o fog.png --exposure 1.5
+  tyndall develop fog.exr -o clean.png --denoise
   tyndall develop fog.exr -o red.png --band 650
   tyndall develop fog.exr -o luminance.png --false-colour 0.1:100
   tyndall develop fog.exr -o points.csv --probe 10,20 --probe 30,40
@@ -63,6 +64,9 @@ pub struct LookArgs {
     /// Show luminance in false colour over this interval in cd/m2, logarithmic
     #[arg(long, visible_alias = "false-color", value_name = "MIN:MAX", value_parser = Interval::parse)]
     pub false_colour: Option<Interval>,
+    /// Take the noise out, by the standard errors (of a film, or in NAME.error.exr); only for pictures (.png)
+    #[arg(long)]
+    pub denoise: bool,
 }
 
 /// Colour spaces of a developed picture.
@@ -90,7 +94,17 @@ impl DevelopArgs {
                 "add -o NAME.csv",
             ));
         }
-        Ok(())
+        let numbers = self.output.iter().find(|file| file.kind != FileKind::Png);
+        match numbers.filter(|_| self.look.denoise) {
+            Some(file) => Err(Conflict::new(
+                format!(
+                    "--denoise with -o {}: numbers without noise would have no errors either",
+                    file.path.display()
+                ),
+                "write .png; another `tyndall develop` without --denoise writes the rest",
+            )),
+            None => Ok(()),
+        }
     }
 }
 
@@ -116,5 +130,9 @@ mod tests {
         assert!(parse("tyndall develop a.exr -o a.png --exposure inf").is_err());
         assert!(parse("tyndall develop a.exr -o a.png --probe 1,2").expect_err("no table").contains("hint"));
         assert!(parse("tyndall develop a.exr -o a.csv --probe 1,2").is_ok());
+        let numbers =
+            parse("tyndall develop a.exr -o a.png -o b.exr --denoise").expect_err("b.exr holds numbers");
+        assert!(numbers.contains("--denoise with -o b.exr"), "{numbers}");
+        assert!(parse("tyndall develop a.exr -o a.png --denoise").is_ok());
     }
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Conflict;
+use super::render::needs_picture;
 use super::value::ImageFile;
 
 /// Arguments of `tyndall merge`.
@@ -29,6 +31,16 @@ pub struct MergeArgs {
     /// Replace results of another job
     #[arg(long)]
     pub force: bool,
+    /// Take the noise out of pictures (.png), by the standard errors; numbers stay as they are
+    #[arg(long)]
+    pub denoise: bool,
+}
+
+impl MergeArgs {
+    /// Refuses what cannot be combined.
+    pub(super) fn check(&self) -> Result<(), Conflict> {
+        if self.denoise { needs_picture(&self.output) } else { Ok(()) }
+    }
 }
 
 #[cfg(test)]
@@ -44,5 +56,7 @@ mod tests {
         assert_eq!((merge.films.len(), merge.output.len(), merge.force), (2, 2, false));
         assert!(parse("tyndall merge -o x.exr").is_err(), "no film");
         assert!(parse("tyndall merge a.film").is_err(), "no output");
+        assert!(parse("tyndall merge a.film -o x.exr --denoise").is_err(), "no picture");
+        assert!(parse("tyndall merge a.film -o x.png --denoise").is_ok());
     }
 }

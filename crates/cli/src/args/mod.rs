@@ -129,6 +129,7 @@ fn check(command: &Command) -> Result<(), clap::Error> {
     let (name, checked) = match command {
         Command::Render(render) => ("render", render.check()),
         Command::Develop(develop) => ("develop", develop.check()),
+        Command::Merge(merge) => ("merge", merge.check()),
         _ => return Ok(()),
     };
     checked.map_err(|conflict| {

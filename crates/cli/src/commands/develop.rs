@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use tyndall::engine::{Backend, Threads};
 use tyndall::files::image::{ExrOptions, Pixels, write_exr, write_png};
 use tyndall::image::chromaticities;
 use tyndall::spectral::{Outside, SpaceName, cie, colour, illuminant, illuminant::daylight_chromaticity};
@@ -31,7 +32,9 @@ pub fn run(args: &DevelopArgs) -> Result<(), Failure> {
         match file.kind {
             FileKind::Csv => table::write(&file.path, &image, &rows)?,
             FileKind::Netcdf => cube::write(&file.path, &image)?,
-            FileKind::Exr if is_plain(args) => write_image(&image, &file.path, FileKind::Exr)?,
+            FileKind::Exr if is_plain(args) => {
+                write_image(&image, &file.path, FileKind::Exr, None)?;
+            }
             FileKind::Exr => {
                 developed_exr(&file.path, &picture(&image, &exact(&look), space(args))?, space(args))?
             }
@@ -96,6 +99,7 @@ fn look(args: &DevelopArgs) -> Result<Look, Failure> {
         white: args.look.white.as_ref().map(white).transpose()?,
         band: args.look.band,
         false_colour: args.look.false_colour.map(|i| [i.from, i.to]),
+        denoise: args.look.denoise.then(|| Threads::available().width()),
     })
 }
 
@@ -116,6 +120,9 @@ fn white(white: &WhitePoint) -> Result<[f64; 2], Error> {
 
 fn png(path: &Path, picture: &Picture) -> Result<(), Error> {
     let report = write_png(path, &picture.pixels, &picture.png())?;
+    if picture.denoised {
+        tracing::info!("{} is denoised, for looking at", path.display());
+    }
     if picture.automatic && picture.exposure != 0.0 {
         tracing::info!("{}: exposure {} stops", path.display(), picture.exposure);
     }

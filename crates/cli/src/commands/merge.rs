@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use tyndall::engine::shard::{self, Merged};
+use tyndall::engine::{Backend, Threads};
 use tyndall::film::ErrorSummary;
 use tyndall::image::error_path;
 use tyndall::record::{Circumstances, Seconds};
 use tyndall::{Error, Image, Provenance, Record, existing, memory};
 
 use super::doubts;
-use super::render::{command_line, write_image};
+use super::render::{command_line, tell_denoised, write_image};
 use crate::args::MergeArgs;
 use crate::args::value::FileKind;
 use crate::exit::Failure;
@@ -29,8 +30,13 @@ pub fn run(args: &MergeArgs) -> Result<(), Failure> {
         results(args, &record).iter().try_for_each(|path| existing::check(path, &provenance))?;
     }
     let image = Image::of_film(&merged.film, &provenance)?;
+    let threads = args.denoise.then(|| Threads::available().width());
+    let mut denoised = false;
     for file in &args.output {
-        write_image(&image, &file.path, file.kind)?;
+        denoised |= write_image(&image, &file.path, file.kind, threads)?;
+    }
+    if denoised {
+        tell_denoised(&args.output);
     }
     let summary = merged.film.summary();
     describe(&merged, &summary, &provenance).write(&record)?;

@@ -7,7 +7,10 @@ use std::{
     io::{self, Write},
     path::Path,
 };
-use tyndall_base::math::f64::pow;
+use tyndall_base::{
+    hash::{hash3, to_unit_f32},
+    math::f64::pow,
+};
 
 /// Bits a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,6 +29,8 @@ pub struct PngOptions {
     pub exposure: f32,
     /// Bits a sample.
     pub depth: BitDepth,
+    /// Rounds at random, by a hash of the place, instead of to the nearest: slow changes without noise of their own get no steps.
+    pub dither: bool,
 }
 
 /// What a PNG could not show, in pixels.
@@ -85,9 +90,10 @@ fn quantise(pixels: &Pixels, options: &PngOptions) -> Result<(Vec<u8>, PngReport
     let gain = pow(2.0, f64::from(options.exposure));
     let mut report = PngReport { pixels: r.len(), ..PngReport::default() };
     let mut samples = Vec::with_capacity(r.len() * 3 * bytes_per_sample(options.depth));
-    for ((r, g), b) in r.iter().zip(g).zip(b) {
-        for v in shown([*r, *g, *b].map(|v| f64::from(v) * gain), &mut report) {
-            push_sample(Encoding::Srgb.encode(v), options.depth, &mut samples);
+    for (place, ((r, g), b)) in r.iter().zip(g).zip(b).enumerate() {
+        for (c, v) in shown([*r, *g, *b].map(|v| f64::from(v) * gain), &mut report).into_iter().enumerate() {
+            let threshold = if options.dither { threshold(place, c) } else { 0.5 };
+            push_sample(Encoding::Srgb.encode(v), options.depth, threshold, &mut samples);
         }
     }
     Ok((samples, report))
@@ -111,12 +117,17 @@ const fn bytes_per_sample(depth: BitDepth) -> usize {
     }
 }
 
-fn push_sample(value: f64, depth: BitDepth, samples: &mut Vec<u8>) {
+/// Where a component is rounded up, in [0, 1): 0 and 1 stay what they are.
+fn threshold(place: usize, component: usize) -> f64 {
+    f64::from(to_unit_f32(hash3(place as u32, (place >> 32) as u32, component as u32)))
+}
+
+fn push_sample(value: f64, depth: BitDepth, threshold: f64, samples: &mut Vec<u8>) {
     match depth {
-        BitDepth::Eight => samples.push((value * 255.0 + 0.5).floor() as u8),
+        BitDepth::Eight => samples.push((value * 255.0 + threshold).floor() as u8),
         BitDepth::Sixteen => {
             // the encoder takes native-endian words
-            samples.extend_from_slice(&((value * 65535.0 + 0.5).floor() as u16).to_ne_bytes());
+            samples.extend_from_slice(&((value * 65535.0 + threshold).floor() as u16).to_ne_bytes());
         }
     }
 }

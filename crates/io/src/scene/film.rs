@@ -31,6 +31,8 @@ pub struct FilmDescription {
     pub band_edges: Vec<f32>,
     /// The film wants depth, normals and albedo beside the image.
     pub gbuffer: bool,
+    /// Pictures for the eye (PNG) shall be denoised.
+    pub denoise: bool,
 }
 
 impl FilmDescription {
@@ -58,7 +60,7 @@ impl FilmDescription {
     }
 }
 
-const KNOWN: [&str; 16] = [
+const KNOWN: [&str; 17] = [
     "xresolution",
     "yresolution",
     "cropwindow",
@@ -75,6 +77,7 @@ const KNOWN: [&str; 16] = [
     "lambdamax",
     "exposuretime",
     "coordinatesystem",
+    "denoise",
 ];
 
 /// The film of the scene; `exposure` is the shutter's open time \[s\].
@@ -127,6 +130,7 @@ pub fn film(ctx: &Context<'_>, declared: &Declared, exposure: f64) -> Result<Fil
         white_balance,
         band_edges,
         gbuffer: declared.name.as_str() == "gbuffer",
+        denoise: p.bool("denoise", false)?,
     };
     description.channels().map_err(|e| at(p, e))?;
     ctx.finish(p, &KNOWN);

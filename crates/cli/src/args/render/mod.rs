@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 pub use light::{Integrator, LightArgs, SpectralStrategy, Switch, WavelengthPdf, WavelengthRule};
+pub(super) use output::needs_picture;
 pub use output::{Names, OutputArgs};
 pub use replay::ReplayArgs;
 pub use run::{CheckpointFile, InstructionSet, RunArgs};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::Conflict;
+use super::{Conflict, Switch};
 use crate::args::value::{
     Aov, Bands, Crop, Duration, FileKind, ImageFile, Orders, Resolution, ServerAddress, Shard,
 };
@@ -37,6 +37,10 @@ pub struct OutputArgs {
     /// Write the image so far every so often [default: only at the end]
     #[arg(long, value_name = "TIME", value_parser = Duration::parse)]
     pub write_every: Option<Duration>,
+    /// Take the noise out of pictures (.png), by the standard errors; numbers stay as they are [default: the scene's, else
+    /// off]
+    #[arg(long, value_enum, value_name = "WHETHER")]
+    pub denoise: Option<Switch>,
     /// Show the image in `tev` while it renders; port 14158 if none is given
     #[arg(long, value_name = "HOST[:PORT]", value_parser = ServerAddress::parse)]
     pub display_server: Option<ServerAddress>,
@@ -45,6 +49,10 @@ pub struct OutputArgs {
 impl OutputArgs {
     /// Refuses what cannot be combined.
     pub(super) fn check(&self, shard: Option<Shard>) -> Result<(), Conflict> {
+        let default = self.files.is_empty() && shard.is_none();
+        if self.denoise == Some(Switch::On) && !default {
+            needs_picture(&self.files)?;
+        }
         let picture = self.files.iter().find(|file| file.kind != FileKind::Film);
         match (shard, picture) {
             (Some(shard), Some(picture)) => Err(Conflict::new(
@@ -54,6 +62,14 @@ impl OutputArgs {
             _ => Ok(()),
         }
     }
+}
+
+/// Refuses to denoise where no picture is written.
+pub(in crate::args) fn needs_picture(files: &[ImageFile]) -> Result<(), Conflict> {
+    if files.iter().any(|file| file.kind == FileKind::Png) {
+        return Ok(());
+    }
+    Err(Conflict::new("--denoise takes the noise out of pictures, and none is written", "add -o NAME.png"))
 }
 
 /// Names of everything a run writes.
@@ -113,6 +129,16 @@ mod tests {
         assert_eq!(names.run_json, Path::new("x.v2.2-of-3.run.json"));
         assert!(render("--shard 2/3 -o a.exr").expect_err("refused").contains("merge"));
         assert!(render("--shard 2/3 -o a.film").is_ok());
+    }
+
+    #[test]
+    fn only_pictures_are_denoised() {
+        assert_eq!(render("--denoise off").expect("valid").output.denoise, Some(Switch::Off));
+        assert!(render("--denoise on").is_ok() && render("--denoise on -o a.exr -o a.png").is_ok());
+        for numbers in ["-o a.exr", "-o a.film --shard 1/2", "--shard 1/2"] {
+            let refused = render(&format!("--denoise on {numbers}")).expect_err(numbers);
+            assert!(refused.contains("-o NAME.png"), "{refused}");
+        }
     }
 
     #[test]

@@ -20,13 +20,13 @@ use tyndall::{Error, Plan, Provenance, Record, RunOptions, existing, memory, pla
 
 use super::{doubts, scene};
 use crate::args::value::{FileKind, ImageFile};
-use crate::args::{CheckpointFile, LogArgs, Names, RenderArgs};
+use crate::args::{CheckpointFile, LogArgs, Names, RenderArgs, Switch};
 use crate::exit::Failure;
 use crate::log::Console;
 use crate::signal;
 use watch::Watcher;
 use write::Writer;
-pub use write::{command_line, write_image};
+pub use write::{command_line, tell_denoised, write_image};
 
 /// A film of more bytes is announced.
 const LARGE: u128 = 1 << 30;
@@ -77,6 +77,11 @@ impl<'a> Job<'a> {
         if needed >= LARGE {
             tracing::info!("the film needs {:.1} GiB of memory", needed as f64 / (1u64 << 30) as f64);
         }
+    }
+
+    /// Whether pictures for the eye are denoised: by the option, else as the scene's film says.
+    fn denoise(&self) -> bool {
+        self.args.output.denoise.map_or(self.plan.loaded.film.denoise, |switch| switch == Switch::On)
     }
 
     /// Files that the run will write.

@@ -13,7 +13,7 @@ use tyndall::table::{self, Rows};
 use tyndall::{Error, Image, Look, Record, RunOptions, cube, picture};
 
 use super::Job;
-use crate::args::value::FileKind;
+use crate::args::value::{FileKind, ImageFile};
 use crate::exit::Failure;
 
 /// Writes the results of a job.
@@ -37,6 +37,9 @@ impl<'j> Writer<'j> {
         }
         // one file that cannot be written is no reason to lose the others
         let images = self.images(film);
+        if let Ok(true) = images {
+            tell_denoised(&self.job.files);
+        }
         let films = self.films(outcome);
         images.and(films)?;
         let summary = film.summary();
@@ -45,12 +48,16 @@ impl<'j> Writer<'j> {
     }
 
     /// The images, with the errors beside an EXR: all that can be written. The record goes first, for it speaks of the images
-    /// beside it.
-    pub fn images(&self, film: &Film) -> Result<(), Error> {
+    /// beside it. Tells whether a picture was denoised.
+    pub fn images(&self, film: &Film) -> Result<bool, Error> {
         self.remove_record()?;
         let image = Image::of_film(film, &self.job.provenance)?;
-        let written = self.job.files.iter().map(|file| write_image(&image, &file.path, file.kind));
-        written.fold(Ok(()), Result::and)
+        let threads = self.job.denoise().then_some(self.threads);
+        let written = self.job.files.iter().map(|file| write_image(&image, &file.path, file.kind, threads));
+        written.fold(Ok(false), |all, one| match (all, one) {
+            (Ok(all), Ok(one)) => Ok(all | one),
+            (Err(first), _) | (_, Err(first)) => Err(first),
+        })
     }
 
     fn films(&self, outcome: &Outcome) -> Result<(), Error> {
@@ -95,11 +102,17 @@ fn scene_name(scene: Option<&Path>) -> String {
     scene.map_or_else(built_in, |path| path.display().to_string())
 }
 
-/// One image file; a film is none.
+/// One image file; a film is none. Pictures for the eye are denoised where threads are given for it; tells whether
+/// this was one.
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn write_image(image: &Image, path: &Path, kind: FileKind) -> Result<(), Error> {
+pub fn write_image(
+    image: &Image,
+    path: &Path,
+    kind: FileKind,
+    denoise: Option<usize>,
+) -> Result<bool, Error> {
     match kind {
         FileKind::Exr => {
             let options = ExrOptions { parallel: false, ..ExrOptions::default() };
@@ -108,25 +121,41 @@ pub fn write_image(image: &Image, path: &Path, kind: FileKind) -> Result<(), Err
                 write_exr(&error_path(path), errors, &options)?;
             }
         }
-        FileKind::Png => {
-            let picture = picture(image, &Look::default(), SpaceName::Srgb)?;
-            let report = write_png(path, &picture.pixels, &picture.png())?;
-            if picture.exposure != 0.0 {
-                tracing::debug!("{}: exposure {} stops", path.display(), picture.exposure);
-            }
-            if report.non_finite > 0 {
-                tracing::warn!(
-                    "{}: {} pixels are not finite, shown in magenta",
-                    path.display(),
-                    report.non_finite
-                );
-            }
-        }
+        FileKind::Png => return write_picture(image, path, denoise),
         FileKind::Csv => table::write(path, image, &Rows::All)?,
         FileKind::Netcdf => cube::write(path, image)?,
         FileKind::Film => {}
     }
-    Ok(())
+    Ok(false)
+}
+
+fn write_picture(image: &Image, path: &Path, denoise: Option<usize>) -> Result<bool, Error> {
+    let look = Look { denoise, ..Look::default() };
+    let picture = picture(image, &look, SpaceName::Srgb).or_else(|error| {
+        if denoise.is_none() {
+            return Err(error);
+        }
+        tracing::warn!("{} is not denoised: {error}", path.display());
+        picture(image, &Look::default(), SpaceName::Srgb)
+    })?;
+    let report = write_png(path, &picture.pixels, &picture.png())?;
+    if picture.exposure != 0.0 {
+        tracing::debug!("{}: exposure {} stops", path.display(), picture.exposure);
+    }
+    if report.non_finite > 0 {
+        tracing::warn!("{}: {} pixels are not finite, shown in magenta", path.display(), report.non_finite);
+    }
+    Ok(picture.denoised)
+}
+
+/// Nobody shall take a denoised picture for the result.
+pub fn tell_denoised(files: &[ImageFile]) {
+    let named = |kind| files.iter().find(|f| f.kind == kind).map(|f| f.path.display());
+    let Some(png) = named(FileKind::Png) else { return };
+    match named(FileKind::Exr) {
+        Some(exr) => tracing::info!("{png} is denoised, for looking at; {exr} holds the samples' means"),
+        None => tracing::info!("{png} is denoised, for looking at; -o NAME.exr writes the samples' means"),
+    }
 }
 
 /// The command as it was given, quoted for a shell.
