@@ -22,7 +22,9 @@ fn pictures_are_denoised_and_say_so_and_numbers_are_not() {
     assert!(label(&place, "a.png").is_some_and(|text| text.contains("for looking at")));
     assert_eq!(label(&place, "b.png"), None);
     assert!(place.read("a.png") != place.read("b.png"));
-    assert!(place.read("a.exr") == place.read("b.exr") && place.read("a.error.exr") == place.read("b.error.exr"));
+    assert!(
+        place.read("a.exr") == place.read("b.exr") && place.read("a.error.exr") == place.read("b.error.exr")
+    );
     // the same picture from the film and from the EXR with its errors, whatever the number of threads
     place.ok("develop a.film -o c.png --denoise");
     place.ok("develop b.exr -o d.png --denoise");
@@ -40,7 +42,10 @@ fn pictures_are_denoised_and_say_so_and_numbers_are_not() {
 fn without_errors_there_is_a_reason() {
     let place = Place::new();
     let told = place.ok("render --resolution 8x8 --spp 1 -o a.exr -o a.png").err;
-    assert!(told.contains("a.png is not denoised: the standard errors of 64 of 64 pixels are unknown"), "{told}");
+    assert!(
+        told.contains("a.png is not denoised: the standard errors of 64 of 64 pixels are unknown"),
+        "{told}"
+    );
     assert_eq!(label(&place, "a.png"), None);
     assert!(place.run("develop a.exr -o b.png --denoise").refusal().contains("64 of 64 pixels are unknown"));
     std::fs::remove_file(place.path("a.error.exr")).expect("there");

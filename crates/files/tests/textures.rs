@@ -132,6 +132,22 @@ fn exposure_is_in_stops() {
     assert!((back.channel("R").expect("red")[0] - 0.5).abs() < 1e-4);
 }
 
+/// A colour between two codes becomes both, in proportion; black and white stay.
+#[test]
+fn dithered_colours_keep_their_mean() {
+    let between = Encoding::Srgb.decode(100.25 / 255.0) as f32;
+    let pixels = Pixels::from_rgb(64, 64, &[[between, 0.0, 1.0]; 4096]).expect("4096 pixels");
+    let (back, _) = png(&pixels, &PngOptions { dither: true, ..PngOptions::default() });
+    let codes = |name: &str| {
+        let plane = back.channel(name).expect("a channel");
+        plane.iter().map(|v| Encoding::Srgb.encode(f64::from(*v)) * 255.0).collect::<Vec<_>>()
+    };
+    let mean = codes("R").iter().sum::<f64>() / 4096.0;
+    // four standard errors of the share of a quarter
+    assert!((mean - 100.25).abs() < 4.0 * (0.25f64 * 0.75 / 4096.0).sqrt(), "{mean}");
+    assert!(codes("G").iter().all(|c| *c == 0.0) && codes("B").iter().all(|c| (c - 255.0).abs() < 1e-9));
+}
+
 #[test]
 fn what_cannot_be_shown_is_counted() {
     let colours = [

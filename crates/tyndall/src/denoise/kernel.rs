@@ -1,7 +1,7 @@
 //! Non-local means: every pixel becomes a mean over those around it whose surroundings look the same, given the noise.
 //!
-//! `d(p, q) = ((u_p - u_q)^2 - (v_p + min(v_p, v_q))) / (K^2 (v_p + v_q))` per pixel and channel; `D(p, q)` is its mean over
-//! patches around p and q and over the channels; `w = exp(-max(0, D))`. Source: Rousselle, Knaus & Zwicker 2012, equations 3 to 5,
+//! `d(p, q) = ((u_p - u_q)^2 - (v_p + min(v_p, v_q))) / (K^2 (v_p + v_q))` per pixel and channel; `D(p, q)` is its mean
+//! over patches around p and q and over the channels; `w = exp(-max(0, D))`. Source: Rousselle, Knaus & Zwicker 2012,
 //! without their two half buffers: our variances are pooled, so that they do not follow the noise of a pixel.
 
 use super::noisy::Noisy;
@@ -20,7 +20,7 @@ const K2: f32 = 0.7 * 0.7;
 /// Beyond this distance the weight is zero.
 const BEYOND: f32 = 5.0;
 /// Rows that are filtered in one go.
-const ROWS: usize = 32;
+pub(super) const ROWS: usize = 32;
 
 /// The means of similar pixels, one plane a channel.
 pub(super) fn filter(picture: &Noisy) -> Vec<Vec<f32>> {

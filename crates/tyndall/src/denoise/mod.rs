@@ -23,11 +23,14 @@ use rayon::prelude::*;
 /// Scales beside the finest; each halves the picture.
 const COARSER: usize = 2;
 
-/// The picture without its noise: one plane a channel, in the order of the channels. Any number of threads gives the same bits.
+/// The picture without its noise: one plane a channel, in the order of the channels. Any number of threads gives the
+/// same bits.
 ///
 /// # Errors
 /// When the threads cannot be started.
 pub fn denoise(picture: &Noisy, threads: usize) -> Result<Vec<Vec<f32>>, Error> {
+    // more threads than strips would idle
+    let threads = threads.min(picture.height.div_ceil(kernel::ROWS)).max(1);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|e| {
         let hint = "give --threads a smaller number";

@@ -1,8 +1,9 @@
 //! Fireflies: pixels that one sample in a million paths has lit.
 //!
-//! A pixel `u` with standard error `s` stands out when it is far from the median `m` of its neighbourhood by the errors that are usual there, yet
-//! not by its own, because what lit it is rare: `|u - m| > FAR usual` and `|u - m| < OWN s`. A lamp or an edge has a
-//! small error of its own and stays. So does what two neighbours share: noise falls on single pixels.
+//! A pixel `u` with standard error `s` stands out when it is far from the median `m` of its neighbourhood by the errors
+//! that are usual there, yet not by its own, because what lit it is rare: `|u - m| > FAR usual` and `|u - m| < OWN s`.
+//! A lamp or an edge has a small error of its own and stays. So does what two neighbours share: noise falls on single
+//! pixels.
 
 use super::noisy::Channel;
 use super::window::{around, median};
@@ -12,13 +13,13 @@ use rayon::prelude::*;
 const RADIUS: usize = 2;
 /// Distance from the median in units of the usual error.
 const FAR: f32 = 6.0;
-/// Distance from the median in units of the pixel's own error: `n - 1` ordinary samples and one that outshines them have 1,
-/// four bright ones of many about 2.
+/// Distance from the median in units of the pixel's own error: `n - 1` ordinary samples and one that outshines them
+/// have 1, four bright ones of many about 2.
 const OWN: f32 = 2.5;
 /// Largest variances of the neighbours that do not count as usual.
 const TRIMMED: usize = 3;
 
-/// Puts the median of its neighbours in the place of each pixel that stands out, and in the place of numbers that are not finite.
+/// Puts the median of its neighbours in the place of each pixel that stands out, and of numbers that are not finite.
 pub(super) fn replace(channel: &mut Channel, width: usize) {
     let found: Vec<(usize, f32, f32)> =
         (0..channel.mean.len()).into_par_iter().filter_map(|p| outlier(channel, width, p)).collect();

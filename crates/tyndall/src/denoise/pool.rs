@@ -1,8 +1,9 @@
 //! Variances that can be trusted.
 //!
 //! The variance of few samples is itself noise, and too small wherever no bright path was met, so it is pooled over
-//! a neighbourhood: `V_p = mean_q v_q min(1, (m_p / m_q)^2)`. Noise grows with the light (it is that of the same paths), so a brighter
-//! neighbour's counts in proportion; else the rim of a lamp would blur the dark beside it.
+//! a neighbourhood: `V_p = mean_q v_q min(1, (m_p / m_q)^2)`, `m` the local median. Noise grows with the light (it is
+//! that of the same paths), so a brighter neighbour's counts in proportion; else the rim of a lamp would blur the dark
+//! beside it.
 
 use super::noisy::Channel;
 use super::window::{around, median};

@@ -22,8 +22,8 @@ pub(super) fn halve(plane: &[f32], size: [usize; 2], power: i32) -> Vec<f32> {
     out
 }
 
-/// `fine + up(coarse - down(fine))`: the means over 2 x 2 pixels become nearly those of the coarse picture, the detail stays.
-/// `up` interpolates linearly between the middles of the coarse pixels.
+/// `fine + up(coarse - down(fine))`: the means over 2 x 2 pixels become nearly those of the coarse picture, the detail
+/// stays. `up` interpolates linearly between the middles of the coarse pixels.
 pub(super) fn correct(fine: &mut [f32], coarse: &[f32], size: [usize; 2]) {
     let [width, height] = half_size(size);
     let missing: Vec<f32> = coarse.iter().zip(halve(fine, size, 1)).map(|(c, f)| c - f).collect();

@@ -53,11 +53,11 @@ impl<'j> Writer<'j> {
         self.remove_record()?;
         let image = Image::of_film(film, &self.job.provenance)?;
         let threads = self.job.denoise().then_some(self.threads);
-        let written = self.job.files.iter().map(|file| write_image(&image, &file.path, file.kind, threads));
-        written.fold(Ok(false), |all, one| match (all, one) {
-            (Ok(all), Ok(one)) => Ok(all | one),
-            (Err(first), _) | (_, Err(first)) => Err(first),
-        })
+        let write = |file: &ImageFile| write_image(&image, &file.path, file.kind, threads);
+        // all of them, before the first failure is told
+        let written: Vec<Result<bool, Error>> = self.job.files.iter().map(write).collect();
+        let denoised = written.into_iter().collect::<Result<Vec<bool>, Error>>()?;
+        Ok(denoised.contains(&true))
     }
 
     fn films(&self, outcome: &Outcome) -> Result<(), Error> {
