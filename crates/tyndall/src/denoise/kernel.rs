@@ -22,15 +22,23 @@ const BEYOND: f32 = 5.0;
 /// Rows that are filtered in one go.
 pub(super) const ROWS: usize = 32;
 
-/// The means of similar pixels, one plane a channel.
-pub(super) fn filter(picture: &Noisy) -> Vec<Vec<f32>> {
+/// What the filter makes of a picture.
+pub(super) struct Filtered {
+    /// The means of similar pixels, one plane a channel.
+    pub planes: Vec<Vec<f32>>,
+    /// Sums of weights: 1 for a pixel like which there is no other.
+    pub total: Vec<f32>,
+}
+
+/// Filters a picture.
+pub(super) fn filter(picture: &Noisy) -> Filtered {
     let padded = Padded::new(picture);
     let strips: Vec<Range<usize>> =
         (0..picture.height).step_by(ROWS).map(|y| y..(y + ROWS).min(picture.height)).collect();
-    let parts: Vec<Vec<Vec<f32>>> =
-        strips.into_par_iter().map(|rows| Strip::new(&padded, rows).run()).collect();
-    let plane = |c: usize| parts.iter().flat_map(|part| &part[c]).copied().collect();
-    (0..picture.channels.len()).map(plane).collect()
+    let parts: Vec<Filtered> = strips.into_par_iter().map(|rows| Strip::new(&padded, rows).run()).collect();
+    let plane = |c: usize| parts.iter().flat_map(|part| &part.planes[c]).copied().collect();
+    let planes = (0..picture.channels.len()).map(plane).collect();
+    Filtered { planes, total: parts.iter().flat_map(|part| &part.total).copied().collect() }
 }
 
 /// The planes with a margin on all sides.
@@ -90,7 +98,7 @@ impl<'p> Strip<'p> {
         }
     }
 
-    fn run(mut self) -> Vec<Vec<f32>> {
+    fn run(mut self) -> Filtered {
         for oy in 0..=2 * REACH {
             for ox in 0..=2 * REACH {
                 self.compare(ox, oy);
@@ -98,14 +106,14 @@ impl<'p> Strip<'p> {
             }
         }
         let (padded, width) = (self.padded, self.padded.width);
-        let mut out = self.shift;
-        for (c, plane) in out.iter_mut().enumerate() {
+        let mut planes = self.shift;
+        for (c, plane) in planes.iter_mut().enumerate() {
             for (i, (value, total)) in plane.iter_mut().zip(&self.total).enumerate() {
                 let u = padded.row(c, 0, i % width + MARGIN, self.rows.start + i / width + MARGIN, 1)[0];
                 *value = u + *value / total;
             }
         }
-        out
+        Filtered { planes, total: self.total }
     }
 
     /// Distances of all pixels to those at an offset (from `-REACH`), summed along the rows of patches.

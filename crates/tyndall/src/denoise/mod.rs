@@ -17,6 +17,7 @@ mod window;
 mod tests;
 
 use crate::Error;
+use kernel::Filtered;
 pub use noisy::{Channel, Noisy};
 use rayon::prelude::*;
 
@@ -45,7 +46,7 @@ fn clean(picture: &Noisy) -> Vec<Vec<f32>> {
         outlier::replace(channel, picture.width);
         channel.variance = pool::pool(channel, picture.width);
     }
-    let mut planes = scales(&smooth, COARSER);
+    let mut planes = scales(&smooth, COARSER).planes;
     for (plane, given) in planes.iter_mut().zip(&picture.channels) {
         restore(plane, given);
     }
@@ -58,14 +59,14 @@ fn restore(plane: &mut [f32], given: &Channel) {
 }
 
 /// The finest scale keeps its detail and takes its slow changes from the coarser ones, where the noise is less.
-fn scales(picture: &Noisy, coarser: usize) -> Vec<Vec<f32>> {
+fn scales(picture: &Noisy, coarser: usize) -> Filtered {
     let mut fine = kernel::filter(picture);
     if coarser == 0 || picture.width.min(picture.height) < 2 * kernel::REACH {
         return fine;
     }
-    let small = picture.halved();
-    let coarse = scales(&small, coarser - 1);
+    let coarse = scales(&picture.halved(), coarser - 1);
     let size = [picture.width, picture.height];
-    fine.par_iter_mut().zip(coarse).for_each(|(fine, coarse)| pyramid::correct(fine, &coarse, size));
+    let planes = fine.planes.par_iter_mut().zip(&coarse.planes);
+    planes.for_each(|(fine, plane)| pyramid::correct(fine, plane, &coarse.total, size));
     fine
 }

@@ -22,11 +22,18 @@ pub(super) fn halve(plane: &[f32], size: [usize; 2], power: i32) -> Vec<f32> {
     out
 }
 
-/// `fine + up(coarse - down(fine))`: the means over 2 x 2 pixels become nearly those of the coarse picture, the detail
-/// stays. `up` interpolates linearly between the middles of the coarse pixels.
-pub(super) fn correct(fine: &mut [f32], coarse: &[f32], size: [usize; 2]) {
+/// Others like it that a coarse pixel needs before it may correct the fine ones: the rim of a lamp has none, and would spill.
+const COMPANY: f32 = 2.0;
+
+/// `fine + up(t (coarse - down(fine)))`: the means over 2 x 2 pixels become nearly those of the coarse picture, the detail
+/// stays. `up` interpolates linearly between the middles of the coarse pixels; the trust t in [0, 1] grows with the sum of
+/// weights `total` that is in a coarse pixel.
+pub(super) fn correct(fine: &mut [f32], coarse: &[f32], total: &[f32], size: [usize; 2]) {
     let [width, height] = half_size(size);
-    let missing: Vec<f32> = coarse.iter().zip(halve(fine, size, 1)).map(|(c, f)| c - f).collect();
+    let trust = |total: f32| ((total - 1.0) / COMPANY).min(1.0);
+    let means = halve(fine, size, 1);
+    let missing: Vec<f32> =
+        coarse.iter().zip(means).zip(total).map(|((c, f), t)| trust(*t) * (c - f)).collect();
     for y in 0..size[1] {
         let rows = neighbours(y, height);
         for x in 0..size[0] {
@@ -61,7 +68,9 @@ mod tests {
         let ramp: Vec<f32> = (0..64u8).map(|p| f32::from(p % 8)).collect();
         let mut fine = ramp.clone();
         let coarse: Vec<f32> = halve(&ramp, [8, 8], 1).iter().map(|v| v + 4.0).collect();
-        correct(&mut fine, &coarse, [8, 8]);
+        correct(&mut fine, &coarse, &[3.0; 16], [8, 8]);
         assert!(fine.iter().zip(&ramp).all(|(f, r)| *f == r + 4.0), "{fine:?}");
+        correct(&mut fine, &[9.0; 16], &[1.0; 16], [8, 8]);
+        assert!(fine.iter().zip(&ramp).all(|(f, r)| *f == r + 4.0), "pixels without company correct nothing");
     }
 }
