@@ -38,7 +38,7 @@ fn a_box_of_fog_has_less_than_half_of_its_error() {
     let before = rms(image.values.rgb().expect("R, G, B"), &reference);
     let after = rms(clean.pixels.rgb().expect("R, G, B"), &reference);
     println!("{before:?} to {after:?}");
-    let all = |channels: [f64; 3]| channels.iter().map(|e| e * e).sum::<f64>().sqrt();
-    assert!(all(after) < 0.5 * all(before), "{before:?} to {after:?}");
-    assert!((0..3).all(|c| after[c] < before[c]), "{before:?} to {after:?}");
+    for c in 0..3 {
+        assert!(after[c] < 0.5 * before[c], "channel {c}: {before:?} to {after:?}");
+    }
 }
