@@ -91,7 +91,10 @@ def diffuse(reflectance):
 
 
 def picture(name):
-    return diffuse({"type": "bitmap", "filename": str(FILES / name), "filter_type": "bilinear"})
+    """An image whose last row is at v = 0, as pbrt has it; Mitsuba has the first there."""
+    rows = np.array(mi.Bitmap(str(FILES / name)))
+    upright = mi.Bitmap(np.ascontiguousarray(rows[::-1]))
+    return diffuse({"type": "bitmap", "bitmap": upright, "raw": False, "filter_type": "bilinear"})
 
 
 def metal(alpha):
@@ -108,6 +111,11 @@ def ball(centre, radius, **more):
 
 def emitter(scale, temperature=6500.0):
     return {"type": "area", "radiance": thermal(scale, temperature)}
+
+
+def lamp_ball(centre, radius, light):
+    """White, as in the pbrt files: lamps reflect, too."""
+    return ball(centre, radius, bsdf=diffuse(curve(WHITE)), emitter=light)
 
 
 def ceiling_lamp(scale):
@@ -129,7 +137,7 @@ def shell(floor, back):
 
 def box_light(name):
     if name == "small-lamp":
-        return ball([0.1, 0.2, 0.1], 0.05, emitter=emitter(150))
+        return lamp_ball([0.1, 0.2, 0.1], 0.05, emitter(150))
     if name != "beam":
         return ceiling_lamp(14.9283176)
     return {
@@ -197,7 +205,7 @@ def room():
         "metal": ball([0.42, -0.62, 0.3], 0.38, bsdf=metal(0.15)),
         "white": ball([-0.4, -0.55, -0.25], 0.45, bsdf=diffuse(curve(WHITE))),
         "lamp": ceiling_lamp(9.9522117),
-        "bulb": ball([-0.7, 0.1, 0.5], 0.06, emitter=emitter(40, 3000.0)),
+        "bulb": lamp_ball([-0.7, 0.1, 0.5], 0.06, emitter(40, 3000.0)),
     }
 
 
@@ -212,7 +220,7 @@ def plates():
         place = T().translate([0, y, z]).rotate([1, 0, 0], turn).scale([1.1, 0.17, 1])
         parts[f"plate_{len(parts)}"] = wall({"type": "twosided", "nested": metal(alpha)}, place)
     for x, radius in [(-0.9, 0.02), (-0.3, 0.05), (0.3, 0.1), (0.9, 0.2)]:
-        parts[f"lamp_{len(parts)}"] = ball([x, 0.62, -0.55], radius, emitter=emitter(0.03 / radius**2))
+        parts[f"lamp_{len(parts)}"] = lamp_ball([x, 0.62, -0.55], radius, emitter(0.03 / radius**2))
     return parts
 
 

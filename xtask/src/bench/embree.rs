@@ -50,7 +50,11 @@ fn compile(out: &Path) -> Result<Option<PathBuf>, String> {
     }
     let program = out.join("embree_rays");
     let source = workspace::root().join("xtask/peers/embree_rays.c");
-    run(Command::new(&compiler).args(["-O3", "-march=native", "-o"]).arg(&program).arg(source).arg("-ldl"))?;
+    run(Command::new(&compiler)
+        .args(["-O3", "-march=native", "-o"])
+        .arg(&program)
+        .arg(source)
+        .args(["-ldl", "-lm"]))?;
     Ok(Some(program))
 }
 
