@@ -59,22 +59,22 @@ struct Grid {
 }
 
 impl Grid {
-    /// Cells of at least a voxel, `detail` long; also the voxels along an edge.
-    fn new(b: Bounds3, detail: f32) -> (Self, usize) {
+    /// Cells of at least a voxel, `detail` long; also the voxels along an edge. `None` for boxes beyond measure.
+    fn new(b: Bounds3, detail: f32) -> Option<(Self, usize)> {
         let extent = b.extent();
-        let count = |voxels: usize| {
-            [extent.x, extent.y, extent.z].map(|e| ((e / (detail * voxels as f32)).ceil() as usize).max(1))
-        };
-        let fits = |dims: &[usize; 3]| {
-            dims.iter().try_fold(1usize, |n, &d| n.checked_mul(d)).is_some_and(|n| n <= MOST_CELLS)
-        };
-        let mut voxels = 1;
-        while !fits(&count(voxels)) {
-            voxels += 1 + voxels / 4;
+        let sides = [extent.x, extent.y, extent.z].map(f64::from);
+        let detail = f64::from(detail);
+        if !(detail > 0.0 && sides.iter().all(|e| *e > 0.0 && e.is_finite())) {
+            return None;
         }
-        let dims = count(voxels);
+        let count = |edge: f64| sides.map(|e| (e / edge).ceil().max(1.0));
+        let mut longest = detail;
+        while count(longest).iter().product::<f64>() > MOST_CELLS as f64 {
+            longest *= 1.25;
+        }
+        let dims = count(longest).map(|n| n as usize);
         let edge = vec3(extent.x / dims[0] as f32, extent.y / dims[1] as f32, extent.z / dims[2] as f32);
-        (Self { lo: b.lo, edge, dims }, voxels)
+        Some((Self { lo: b.lo, edge, dims }, (longest / detail).ceil() as usize))
     }
 
     fn len(&self) -> usize {
@@ -109,8 +109,9 @@ impl VolumeLight {
         everywhere: bool,
     ) -> Result<Option<Self>, TransportError> {
         let Some(spectrum) = matter.emission().cloned() else { return Ok(None) };
-        let box_of_all = matter.grid_bounds();
-        let (cells, voxels) = Grid::new(box_of_all, matter.grid_detail());
+        let Some((cells, voxels)) = Grid::new(matter.grid_bounds(), matter.grid_detail()) else {
+            return Ok(None);
+        };
         let probes = probes(&spectrum, matter.range());
         let per_volume = |e: Spectrum<PROBES>| measure(&e, &probes, matter.range());
         let steps = voxels.clamp(POINTS[0], POINTS[1]);
@@ -126,12 +127,19 @@ impl VolumeLight {
         }
         let alias = Alias::new(&weights)
             .map_err(|e| TransportError::Unusable { what: "emission of a medium", why: e.to_string() })?;
-        let cell_volume = f64::from(cells.edge.x * cells.edge.y * cells.edge.z) * matter.volume_scale();
-        let density = (0..cells.len()).map(|c| (f64::from(alias.pmf(c)) / cell_volume) as f32).collect();
+        let sides = [cells.edge.x, cells.edge.y, cells.edge.z].map(f64::from);
+        let cell_volume = sides.iter().product::<f64>() * matter.volume_scale();
+        let density: Vec<f32> =
+            (0..cells.len()).map(|c| (f64::from(alias.pmf(c)) / cell_volume) as f32).collect();
+        let cross_section = total * cell_volume / unit;
+        // boxes of the size of atoms or galaxies leave the range of f32: chance finds what they emit
+        let in_range = |c: usize| density[c].is_normal() || (density[c] == 0.0 && weights[c] == 0.0);
+        if !((0..cells.len()).all(in_range) && (cross_section as f32).is_normal()) {
+            return Ok(None);
+        }
         let emitting = (0..cells.len()).filter(|&c| weights[c] > 0.0);
         let corners = emitting.flat_map(|c| [cells.corner(c), cells.corner(c) + cells.edge]);
         let bounds = matter.to_world_bounds(Bounds3::from_points(corners));
-        let cross_section = total * cell_volume / unit;
         let matter = Arc::clone(matter);
         Ok(Some(Self { medium, matter, spectrum, cross_section, cells, alias, density, bounds, everywhere }))
     }
@@ -310,6 +318,18 @@ mod tests {
         let sum: f64 = light.density.iter().map(|d| f64::from(*d) * volume).sum();
         assert!((sum - 1.0).abs() < 1e-5, "{sum}");
         assert!(light.density.contains(&0.0), "a grid with empty cells");
+    }
+
+    /// Boxes without measure in f32 are no lights, and take no time.
+    #[test]
+    fn boxes_beyond_measure_are_left_to_chance() {
+        let b = |x: f32| Bounds3::new(Vec3::ZERO, vec3(x, 1.0, 1.0));
+        assert!(Grid::new(b(f32::INFINITY), 1.0).is_none() && Grid::new(b(f32::NAN), 1.0).is_none());
+        assert!(Grid::new(b(0.0), 1.0).is_none() && Grid::new(b(1.0), 0.0).is_none());
+        for (x, detail) in [(3e38, 1e-38), (1e30, 1.0), (400.0, 0.5), (1e-30, 1.0)] {
+            let (grid, voxels) = Grid::new(b(x), detail).expect("finite");
+            assert!((1..=MOST_CELLS).contains(&grid.len()) && voxels >= 1, "{x} {detail}: {grid:?}");
+        }
     }
 
     /// A spectrum of lines alone has its power in them.
