@@ -60,7 +60,14 @@ pub fn decode_ies(text: &str, path: &Path) -> Result<IesProfile> {
         if value < 0.0 {
             return Err(source.wrong("a candela value >= 0", &value.to_string()));
         }
-        candela.push(value * factor * ballast);
+        let product = value * factor * ballast;
+        if !(product >= 0.0 && product.is_finite()) {
+            return Err(source.wrong(
+                "a candela value that is finite and >= 0 with its multipliers",
+                &product.to_string(),
+            ));
+        }
+        candela.push(product);
     }
     unfold(IesProfile { vertical, horizontal, candela }).ok_or_else(|| {
         source.wrong("horizontal angles from 0 to 0, 90, 180 or 360, or from 90 to 270", "others")

@@ -1,5 +1,7 @@
 //! Damaged and hostile EXR files: an error, no panic, no allocation that the file's size does not justify.
 
+mod mutate;
+
 use proptest::prelude::*;
 use std::{io::Cursor, path::Path, time::Instant};
 use tyndall_files::{FileError, image::*};
@@ -136,4 +138,19 @@ proptest! {
         bytes.splice(0..0, magic);
         prop_assert!(read(&bytes).is_err());
     }
+}
+
+fn survive(count: u32) {
+    mutate::survive(&seeds(), count, |bytes| drop(read(bytes)));
+}
+
+#[test]
+fn damaged_copies() {
+    survive(mutate::SHORT);
+}
+
+#[test]
+#[ignore = "long: TYNDALL_FUZZ copies"]
+fn many_damaged_copies() {
+    survive(mutate::long());
 }

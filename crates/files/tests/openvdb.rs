@@ -1,5 +1,7 @@
 //! OpenVDB files written here come back, whatever the compression and the rule for inactive values; damaged ones are refused.
 
+mod mutate;
+
 use proptest::prelude::*;
 use std::{collections::BTreeMap, io::Write, path::PathBuf};
 use tyndall_files::{
@@ -347,4 +349,34 @@ proptest! {
             pieces(&grid);
         }
     }
+}
+
+fn survive(count: u32) {
+    let spec = |codec, rule, half| file(&Spec { codec, rule, half, ..SPEC });
+    let seeds = [
+        spec(Codec::Plain, 0, false),
+        spec(Codec::Plain, 5, true),
+        spec(Codec::Zip, 3, false),
+        spec(Codec::Blosc, 5, false),
+    ];
+    mutate::survive(&seeds, count, |bytes| {
+        let (_folder, path) = stored(bytes);
+        let Ok(volume) = Volume::open(&path) else { return };
+        for name in volume.names() {
+            if let Ok(Some(grid)) = volume.grid(name) {
+                pieces(&grid);
+            }
+        }
+    });
+}
+
+#[test]
+fn damaged_copies() {
+    survive(mutate::SHORT);
+}
+
+#[test]
+#[ignore = "long: TYNDALL_FUZZ copies"]
+fn many_damaged_copies() {
+    survive(mutate::long());
 }

@@ -1,5 +1,7 @@
 //! IES files: symmetries, tilt, and what is wrong with damaged ones.
 
+mod mutate;
+
 use std::path::Path;
 use tyndall_files::photometry::{IesProfile, decode_ies};
 
@@ -58,6 +60,16 @@ fn damage_is_told_with_its_line() {
     }
 }
 
+/// Found by damaged copies: finite numbers whose product is not.
+#[test]
+fn multipliers_that_overflow_are_refused() {
+    let text = file("TILT=NONE", 1, "0", "9 5 1").replace("\n0.5 1 60", "\n1e38 1 60");
+    let message = read(&text).expect_err("too bright");
+    assert!(message.contains("multipliers") && message.contains("inf"), "{message}");
+    let negative = file("TILT=NONE", 1, "0", "9 5 1").replace("1000 2.0", "1000 -2.0");
+    assert!(read(&negative).expect_err("negative").contains("multipliers"));
+}
+
 /// Every prefix and every change of one byte: an error or a profile, never a panic.
 #[test]
 fn cut_and_changed_files_do_no_harm() {
@@ -68,4 +80,27 @@ fn cut_and_changed_files_do_no_harm() {
             let _ = read(&format!("{}{byte}{}", &text[..end], &text[end + 1..]));
         }
     }
+}
+
+fn survive(count: u32) {
+    let tilted = file("TILT=INCLUDE\n1\n2\n0 90\n1 0.9", 1, "0 90", "1 2 3 4 5 6");
+    let seeds =
+        [tilted, file("TILT=NONE", 1, "0", "9 5 1"), file("TILT=NONE", 1, "90 180 270", "1 2 3 4 5 6 7 8 9")];
+    mutate::survive(&seeds.map(String::into_bytes), count, |bytes| {
+        if let Ok(p) = read(&String::from_utf8_lossy(bytes)) {
+            assert_eq!(p.candela.len(), p.vertical.len() * p.horizontal.len());
+            assert!(p.candela.iter().all(|c| *c >= 0.0 && c.is_finite()), "{p:?}");
+        }
+    });
+}
+
+#[test]
+fn damaged_copies() {
+    survive(mutate::SHORT);
+}
+
+#[test]
+#[ignore = "long: TYNDALL_FUZZ copies"]
+fn many_damaged_copies() {
+    survive(mutate::long());
 }

@@ -1,5 +1,7 @@
 //! PLY: the hand-made files in `data/`, an independent reader as a judge, and damage.
 
+mod mutate;
+
 use ply_rs_bw::{parser::Parser, ply::DefaultElement, ply::Property};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -220,4 +222,29 @@ proptest! {
         prop_assert_eq!(mesh.quads.len(), faces.iter().filter(|f| f.len() == 4).count());
         prop_assert_eq!(mesh.fanned_faces, faces.iter().filter(|f| f.len() == 5).count());
     }
+}
+
+fn survive(count: u32) {
+    let names = ["mixed_ascii.ply", "binary_le.ply", "binary_be.ply", "binary_le.ply.gz"];
+    let seeds = names.map(|n| std::fs::read(data(n)).expect("a file of ours"));
+    mutate::survive(&seeds, count, |bytes| {
+        if let Ok(mesh) = decode(bytes) {
+            let vertices = mesh.positions.len() as u32;
+            assert!(
+                mesh.triangles.iter().flatten().chain(mesh.quads.iter().flatten()).all(|i| *i < vertices)
+            );
+            assert!(mesh.positions.iter().all(|p| p.x.is_finite() && p.y.is_finite() && p.z.is_finite()));
+        }
+    });
+}
+
+#[test]
+fn damaged_copies() {
+    survive(mutate::SHORT);
+}
+
+#[test]
+#[ignore = "long: TYNDALL_FUZZ copies"]
+fn many_damaged_copies() {
+    survive(mutate::long());
 }

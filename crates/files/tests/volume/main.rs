@@ -1,5 +1,7 @@
 //! NanoVDB files written here come back, whatever the leaves and the compression; damaged ones are refused.
 
+#[path = "../mutate/mod.rs"]
+mod mutate;
 mod writer;
 
 use proptest::prelude::*;
@@ -187,4 +189,28 @@ proptest! {
         data[at] = byte;
         let _ = read(&data, "density");
     }
+}
+
+fn survive(count: u32) {
+    let small = |kind| Spec { first: [0; 3], last: [7; 3], ..spec(kind) };
+    let mut seeds: Vec<Vec<u8>> = [1, 13, 14, 16].map(|kind| file(0, &[small(kind)], |b| b)).into();
+    seeds.extend([file(1, &[small(1)], zip), file(2, &[small(2)], blosc)]);
+    mutate::survive(&seeds, count, |bytes| {
+        let (_dir, path) = on_disk(bytes);
+        let Ok(file) = NanoVdb::open(&path) else { return };
+        for name in file.names() {
+            let _ = file.grid(name).and_then(|g| g.as_ref().map(leaves).transpose());
+        }
+    });
+}
+
+#[test]
+fn damaged_copies() {
+    survive(mutate::SHORT);
+}
+
+#[test]
+#[ignore = "long: TYNDALL_FUZZ copies"]
+fn many_damaged_copies() {
+    survive(mutate::long());
 }

@@ -165,5 +165,23 @@ mod tests {
         fn nothing_panics(text in "(theta|cos)?[ 0-9.e#,\n-]{0,200}") {
             let _ = read(&text);
         }
+
+        /// A sound table with pieces changed: what is read is a phase function.
+        #[test]
+        fn changed_tables_are_refused_or_sound(
+            edits in prop::collection::vec((any::<prop::sample::Index>(), 0..4usize, 0..9usize), 1..5),
+        ) {
+            let mut text = String::from("cos, 400, 600\n-1, 0, 1 # back\n0 1 1\n0.5 1.5 1\n1, 2, 1\n");
+            for (at, cut, piece) in edits {
+                let start = at.index(text.len());
+                let end = (start + cut).min(text.len());
+                let piece = ["0", "-", "9", "1e30", "nan", " ", "\n", "#", "1e-40"][piece];
+                text.replace_range(start..end, piece);
+            }
+            if let Ok(table) = read(&text) {
+                let g = table.mean_cosine(500.0);
+                prop_assert!(g.abs() <= 1.001, "{text:?}: {g}");
+            }
+        }
     }
 }
