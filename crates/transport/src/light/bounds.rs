@@ -4,7 +4,7 @@
 //! power over squared distance, times the greatest cosines that the box allows at the light and at the receiver.
 //! Source: Conty Estevez & Kulla 2018, *Importance sampling of many lights with adaptive tree splitting*.
 
-use super::Light;
+use super::{Light, volume::is_near};
 use std::f32::consts::{FRAC_PI_2, PI};
 use tyndall_base::{Vec3, math};
 use tyndall_geometry::{Accel, Bounds3, Shape};
@@ -18,7 +18,7 @@ pub(super) struct LightBounds {
     cos_o: f32,
     cos_e: f32,
     two_sided: bool,
-    /// Sends nothing to points inside its box.
+    /// Sends nothing to points near its box.
     hollow: bool,
 }
 
@@ -93,10 +93,10 @@ impl LightBounds {
         2.0 * PI * (1.0 - cos_o) + FRAC_PI_2 * rest
     }
 
-    /// Whether `p` lies inside a light that sends nothing there.
+    /// Whether `p` is near a light that sends nothing there.
     #[inline(always)]
     pub fn is_hollow_at(&self, p: Vec3) -> bool {
-        self.hollow && self.bounds.contains(p)
+        self.hollow && is_near(self.bounds, p)
     }
 
     /// How much a point with normal `n` (zero for none) may receive; zero only where nothing arrives.

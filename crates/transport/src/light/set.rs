@@ -30,7 +30,7 @@ pub enum Selection {
 pub enum MediumLights {
     /// None.
     Off,
-    /// For points outside the box of what emits.
+    /// For points that it looks small from.
     #[default]
     Auto,
     /// For all points.

@@ -53,7 +53,7 @@ impl LightTree {
         self.add(second, way | 1 << depth, depth + 1);
     }
 
-    /// Whether `p` lies inside the one light there is, which sends it nothing.
+    /// Whether `p` is near the one light there is, which sends it nothing.
     #[inline(always)]
     pub fn is_dark(&self, p: Vec3) -> bool {
         self.nodes.first().is_some_and(|root| root.bounds.is_hollow_at(p))

@@ -24,6 +24,8 @@ const POINTS: [usize; 2] = [2, 4];
 const PROBES: usize = 8;
 /// Of these for the strongest lines of the spectrum, at most.
 const LINE_PROBES: usize = 4;
+/// Points are near what emits up to this many times its radius, from its middle: beyond that it covers at most 0.8 sr.
+const NEAR: f32 = 2.0;
 
 /// See the module.
 #[derive(Clone, Debug)]
@@ -101,8 +103,7 @@ impl Grid {
 }
 
 impl VolumeLight {
-    /// The light of medium `medium`; `None` where nothing is found to emit. `everywhere`: also for points inside the box
-    /// of what emits.
+    /// The light of medium `medium`; `None` where nothing is found to emit. `everywhere`: also for points near what emits.
     pub fn new(
         medium: MediumId,
         matter: &Arc<Heterogeneous>,
@@ -170,7 +171,7 @@ impl VolumeLight {
         self.bounds
     }
 
-    /// Whether points inside [`Self::bounds`] are left to chance.
+    /// Whether points near [`Self::bounds`] are left to chance.
     pub fn is_hollow(&self) -> bool {
         !self.everywhere
     }
@@ -178,7 +179,7 @@ impl VolumeLight {
     /// Whether points are drawn for `x`: a function of `x` alone, so that all techniques agree on it.
     #[inline(always)]
     pub fn serves(&self, x: Vec3) -> bool {
-        self.everywhere || !self.bounds.contains(x)
+        self.everywhere || !is_near(self.bounds, x)
     }
 
     /// Draws a point by four numbers of \[0, 1).
@@ -194,6 +195,13 @@ impl VolumeLight {
     pub fn pdf_at(&self, p: Vec3) -> f32 {
         self.density[self.cells.cell(p)]
     }
+}
+
+/// Whether `x` is so near that what emits fills much of its sky, where chance does as well for less.
+#[inline(always)]
+pub(super) fn is_near(emitting: Bounds3, x: Vec3) -> bool {
+    let radius2 = (emitting.extent() * 0.5).length_squared();
+    (x - emitting.centre()).length_squared() <= NEAR * NEAR * radius2
 }
 
 /// Wavelengths over the range, the last of them on the strongest lines.

@@ -60,7 +60,7 @@ fn choosing_points_of_media_does_not_matter() {
     family.assert(0.3);
 }
 
-/// Beside lights at infinity, which points inside the box of what emits are left with.
+/// Beside lights at infinity, which points near what emits are left with.
 #[test]
 fn choosing_points_under_the_sky_does_not_matter() {
     let text = room(&media::uniform(&ALBEDO, &glow()), &media::sky());
