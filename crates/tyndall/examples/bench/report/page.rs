@@ -41,6 +41,11 @@ pub fn html(report: &Report) -> String {
     page.finish()
 }
 
+/// A renderer's name without what all of its kind share, so that the legend leaves room for the plot.
+fn short(name: &str) -> String {
+    name.replace("_ad_spectral", "").replace("_spectral", "")
+}
+
 /// One point for each number of samples.
 fn points(rows: &[&Row]) -> (Vec<[f64; 2]>, Vec<f64>) {
     let bar = |r: &&Row| r.measured.mse * r.measured.headline_se / r.measured.headline;
@@ -52,11 +57,11 @@ fn error_against_time(report: &Report, scene: &crate::scenes::BenchScene) -> Opt
     let mut names: Vec<&str> = rows.iter().map(|r| r.renderer.as_str()).collect();
     names.dedup();
     let x = Axis::new("user CPU [s]").log();
-    let mut chart = Chart::new(scene.name, x, Axis::new("MSE of Y").log()).size(620.0, 380.0);
+    let mut chart = Chart::new(scene.name, x, Axis::new("MSE of Y").log()).size(720.0, 400.0);
     for name in &names {
         let of: Vec<&Row> = rows.iter().filter(|r| r.renderer == *name).copied().collect();
         let (points, errors) = points(&of);
-        chart = chart.with(Series::line(name, points).errors(errors));
+        chart = chart.with(Series::line(&short(name), points).errors(errors));
     }
     let first = rows.iter().find(|r| r.renderer == OURS).or(rows.first())?;
     let slowest = rows.iter().map(|r| r.measured.seconds).fold(0.0, f64::max);
