@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     /// Parameters of pbrt-v4 that the scenes use.
-    const PBRT: [&str; 35] = [
+    const PBRT: [&str; 36] = [
         "P",
         "coneangle",
         "conedeltaangle",
@@ -95,6 +95,7 @@ mod tests {
         "sensor",
         "sigma_a",
         "sigma_s",
+        "temperature",
         "to",
         "type",
         "uv",

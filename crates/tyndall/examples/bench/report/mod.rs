@@ -221,7 +221,7 @@ mod tests {
             json!({ "kind": "start", "renderer": OURS, "scene": "fog-box", "seconds": 0.01, "user_seconds": 0.01, "bytes": 9e6 }),
             json!({ "kind": "threads", "scene": "fog-box", "threads": 1, "spp": 4, "resolution": 32, "seconds": 2.0 }),
             json!({ "kind": "threads", "scene": "fog-box", "threads": 2, "spp": 4, "resolution": 32, "seconds": 1.0 }),
-            json!({ "kind": "technique", "scene": "fog-box", "changed": "glow off", "spp": 16, "ratio": 1.5, "ratio_se": 0.1, "ratio_whole": 1.2 }),
+            json!({ "kind": "technique", "scene": "fog-box", "changed": "equiangular off", "spp": 16, "ratio": 1.5, "ratio_se": 0.1, "ratio_whole": 1.2 }),
             json!({ "kind": "triangles", "triangles": 1058, "load_seconds": 0.1, "build_seconds": 0.1, "samples_per_second": 5e5, "tree_bytes_per_triangle": 60.0 }),
             json!({ "kind": "bytes", "unit": "pixel", "from": 10.0, "to": 20.0, "peak": [1e6, 2e6], "bytes": 1e5 }),
             json!({ "kind": "rays", "renderer": "Tyndall", "scene": "cave", "set": "bounce", "triangles": 9, "rays": 4, "mrays": 5.0, "hits": 4 }),
