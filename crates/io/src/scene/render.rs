@@ -150,7 +150,10 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
         p.ignore(name, "directions are chosen by both techniques");
     }
     let settings = settings(p, method)?;
-    let (selection, medium_lights) = (selection(p)?, medium_lights(p)?);
+    let (selection, medium_lights) = (
+        selection(p)?,
+        when(p, "mediumlights", [MediumLights::Auto, MediumLights::Off, MediumLights::Always])?,
+    );
     ctx.finish(p, KNOWN);
     Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, selection, medium_lights })
 }
@@ -168,15 +171,13 @@ fn selection(p: &ParamSet) -> Result<Selection, Error> {
     }
 }
 
-fn medium_lights(p: &ParamSet) -> Result<MediumLights, Error> {
-    match p.string("mediumlights", "auto")?.as_str() {
-        "auto" => Ok(MediumLights::Auto),
-        "off" => Ok(MediumLights::Off),
-        "always" => Ok(MediumLights::Always),
-        other => {
-            let got = format!("\"{other}\"");
-            Err(refuse(p, "mediumlights", "must be \"auto\", \"off\" or \"always\"", got))
-        }
+/// A technique that is on by itself where it pays: the value for `auto` (the default), `off` or `always`.
+fn when<T>(p: &ParamSet, name: &str, [auto, off, always]: [T; 3]) -> Result<T, Error> {
+    match p.string(name, "auto")?.as_str() {
+        "auto" => Ok(auto),
+        "off" => Ok(off),
+        "always" => Ok(always),
+        other => Err(refuse(p, name, "must be \"auto\", \"off\" or \"always\"", format!("\"{other}\""))),
     }
 }
 
@@ -188,19 +189,7 @@ pub(super) fn default_settings(method: Method) -> Settings {
 fn settings(p: &ParamSet, method: Method) -> Result<Settings, Error> {
     let default = default_settings(method);
     let depth = p.integer("maxdepth", 5)?;
-    let equiangular = match p.string("equiangular", "auto")?.as_str() {
-        "auto" => Equiangular::Auto,
-        "off" => Equiangular::Off,
-        "always" => Equiangular::Always,
-        other => {
-            return Err(refuse(
-                p,
-                "equiangular",
-                "must be \"auto\", \"off\" or \"always\"",
-                format!("\"{other}\""),
-            ));
-        }
-    };
+    let equiangular = when(p, "equiangular", [Equiangular::Auto, Equiangular::Off, Equiangular::Always])?;
     let threshold = p.float("roulettethreshold", default.roulette_threshold)?;
     if !(threshold > 0.0 && threshold.is_finite()) {
         return Err(refuse(p, "roulettethreshold", "must be > 0", threshold));
@@ -219,23 +208,11 @@ fn settings(p: &ParamSet, method: Method) -> Result<Settings, Error> {
         equiangular,
         cone_clipping: p.bool("coneclipping", default.cone_clipping)?,
         glow: p.bool("glow", default.glow)?,
-        guiding: guiding(p)?,
+        guiding: when(p, "guiding", [Guiding::Auto, Guiding::Off, Guiding::Always])?,
         roulette_depth: if p.bool("russianroulette", true)? { roulette } else { u32::MAX },
         roulette_threshold: threshold,
         ..default
     })
-}
-
-fn guiding(p: &ParamSet) -> Result<Guiding, Error> {
-    match p.string("guiding", "auto")?.as_str() {
-        "auto" => Ok(Guiding::Auto),
-        "off" => Ok(Guiding::Off),
-        "always" => Ok(Guiding::Always),
-        other => {
-            let got = format!("\"{other}\"");
-            Err(refuse(p, "guiding", "must be \"auto\", \"off\" or \"always\"", got))
-        }
-    }
 }
 
 /// Negative stands for no limit.
