@@ -10,8 +10,11 @@ use tyndall_spectral::Emission;
 /// Share of the choice that ignores power, so that a light whose power the weights misjudge is still found.
 const UNIFORM_SHARE: f64 = 0.02;
 
-/// With fewer lights of finite extent than this a tree does not pay.
+/// With fewer lights of finite extent than this a tree does not pay, unless there are others at infinity.
 const FEW: usize = 3;
+
+/// Share that lights at infinity, and the others, have at least where both send light: either may be hidden.
+const LEAST: f32 = 0.15;
 
 /// How lights are chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -54,7 +57,7 @@ pub struct LightSet {
     volumes: Vec<(MediumId, LightId)>,
     all: Option<Choice>,
     local: Option<Choice>,
-    /// The tree over the local ones, the choice among the others, and the probability of the others.
+    /// The tree over the local ones, the choice among the others, and what decides between the two.
     spatial: Option<Spatial>,
 }
 
@@ -63,7 +66,9 @@ struct Spatial {
     tree: LightTree,
     is_local: Vec<bool>,
     far: Option<Choice>,
-    far_share: f32,
+    /// What skies send to any place, and what suns and portals do, as the tree's importance counts.
+    sky: f32,
+    sun: f32,
 }
 
 #[derive(Clone, Debug)]
@@ -126,28 +131,31 @@ impl LightSet {
                 let even: Vec<f64> = powers.iter().map(|p| f64::from(u8::from(*p > 0.0))).collect();
                 self.all = Choice::new(&even, |_| true);
             }
-            Selection::Tree => self.spatial = self.spatial(accel, &powers),
+            Selection::Tree => self.spatial = self.spatial(accel, scene_radius, &powers),
         }
         self
     }
 
-    fn spatial(&self, accel: &Accel, powers: &[f64]) -> Option<Spatial> {
+    fn spatial(&self, accel: &Accel, scene_radius: f32, powers: &[f64]) -> Option<Spatial> {
         let bounds = |(i, l): (usize, &Light)| Some((i as u32, LightBounds::of(l, accel, powers[i])?));
         let local: Vec<_> = self.lights.iter().enumerate().filter_map(bounds).collect();
+        let is_local: Vec<bool> = self.lights.iter().map(Light::has_place).collect();
+        let far = Choice::new(powers, |i| !is_local[i]);
         // media know where they send light, even few of them
-        if local.len() < FEW && self.volumes.is_empty() {
+        if local.is_empty() || (local.len() < FEW && self.volumes.is_empty() && far.is_none()) {
             return None;
         }
-        let is_local: Vec<bool> = self.lights.iter().map(Light::has_place).collect();
-        let sum = |local: bool| -> f64 {
-            powers.iter().zip(&is_local).filter(|(_, l)| **l == local).map(|(p, _)| *p).sum()
+        // pi times the irradiance: of a sky pi^2 L, where its power is 4 pi L times the scene's disk; of a sun pi times its
+        // power over that disk
+        let radius2 = f64::from(scene_radius) * f64::from(scene_radius);
+        let sent = |keep: &dyn Fn(&Light) -> bool, per: f64| -> f32 {
+            let power: f64 = self.lights.iter().zip(powers).filter(|(l, _)| keep(l)).map(|(_, p)| p).sum();
+            if power > 0.0 && radius2 > 0.0 { (power / (per * radius2)) as f32 } else { 0.0 }
         };
-        let (near, beyond) = (sum(true), sum(false));
-        let far = Choice::new(powers, |i| !is_local[i]);
-        // neither side is starved where power misleads: a sun outside a lit room, a candle in the sun
-        let share = if near > 0.0 { (beyond / (near + beyond)).clamp(0.2, 0.8) } else { 1.0 };
-        let far_share = if far.is_some() { share as f32 } else { 0.0 };
-        Some(Spatial { tree: LightTree::new(local, self.lights.len()), is_local, far, far_share })
+        let is_dome = |l: &Light| matches!(l, Light::Infinite(_) | Light::Image(_));
+        let sky = sent(&is_dome, 4.0);
+        let sun = sent(&|l| !l.has_place() && !is_dome(l), 1.0);
+        Some(Spatial { tree: LightTree::new(local, self.lights.len()), is_local, far, sky, sun })
     }
 
     /// Chooses a light for the point `p` with normal `n`, zero for none.
@@ -236,15 +244,24 @@ impl LightSet {
 }
 
 impl Spatial {
-    /// Share of the lights at infinity: all of it where no other sends anything.
+    /// Share of the lights at infinity at `p` with normal `n`: all of it where no other sends anything. A point of a medium
+    /// takes light from the whole sphere of a sky, a surface a quarter of that.
     #[inline(always)]
-    fn far_share(&self, p: Vec3) -> f32 {
-        if self.far.is_some() && self.tree.is_dark(p) { 1.0 } else { self.far_share }
+    fn far_share(&self, p: Vec3, n: Vec3) -> f32 {
+        if self.far.is_none() {
+            return 0.0;
+        }
+        let near = self.tree.importance(p, n);
+        if near <= 0.0 {
+            return 1.0;
+        }
+        let far = self.sun + if n == Vec3::ZERO { 4.0 * self.sky } else { self.sky };
+        (far / (near + far)).clamp(LEAST, 1.0 - LEAST)
     }
 
     #[inline(never)]
     fn select(&self, p: Vec3, n: Vec3, u: f32) -> Option<Selected> {
-        let far_share = self.far_share(p);
+        let far_share = self.far_share(p, n);
         if u < far_share {
             let far = self.far.as_ref()?.select(u / far_share);
             return Some(Selected { pmf: far.pmf * far_share, ..far });
@@ -258,16 +275,16 @@ impl Spatial {
     #[inline(never)]
     fn pmf(&self, p: Vec3, n: Vec3, id: LightId) -> f32 {
         if self.is_local[id.index()] {
-            return self.tree.pmf(p, n, id.0) * (1.0 - self.far_share);
+            return self.tree.pmf(p, n, id.0) * (1.0 - self.far_share(p, n));
         }
-        self.far.as_ref().map_or(0.0, |far| far.pmf[id.index()] * self.far_share(p))
+        self.far.as_ref().map_or(0.0, |far| far.pmf[id.index()] * self.far_share(p, n))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::light::{AreaLight, DistantLight, PointLight, SpotLight};
+    use crate::light::{AreaLight, DistantLight, PointLight, SpotLight, UniformInfiniteLight};
     use tyndall_base::{rng::Pcg32, vec::vec3};
     use tyndall_geometry::{BuildOptions, Shape, ShapeGroup, TriangleMesh};
     use tyndall_spectral::Curve;
@@ -355,12 +372,12 @@ mod tests {
     #[test]
     fn the_tree_has_less_variance_than_power() {
         let (accel, set) = scene();
-        let far = set.spatial.as_ref().map_or(0.0, |s| s.far_share);
         let mut rng = Pcg32::new(4, 2);
         let w = tyndall_spectral::Wavelengths::<1>::continuum([550.0], [1.0]);
         let mut better = 0;
         for _ in 0..200 {
             let p = vec3(rng.next_f32(), rng.next_f32(), rng.next_f32()) * 10.0;
+            let far = set.spatial.as_ref().map_or(0.0, |s| s.far_share(p, Vec3::ZERO));
             let (mut by_tree, mut by_power) = (0.0, 0.0);
             for (i, light) in set.iter().enumerate().filter(|(_, l)| l.is_local()) {
                 let id = LightId(i as u32);
@@ -373,5 +390,33 @@ mod tests {
             better += usize::from(by_tree < by_power);
         }
         assert!(better > 150, "{better} of 200");
+    }
+
+    /// A lamp over a plain under a sky: the nearer the lamp the more it is chosen, far from it the sky; points of a medium
+    /// are lit by all of the sky.
+    #[test]
+    fn sky_and_lamp_share_by_what_they_send() {
+        let corners = [vec3(-0.5, 2.0, -0.5), vec3(0.5, 2.0, -0.5), vec3(0.0, 2.0, 0.5)];
+        let mesh = TriangleMesh::new(vec![[0, 1, 2]], corners.to_vec()).expect("valid");
+        let group = ShapeGroup::from(Shape::Triangles(mesh));
+        let accel = Accel::build(vec![group], &[], Vec::new(), &BuildOptions::default()).expect("valid");
+        let (emission, area) = (Curve::Constant(10.0).into(), accel.group(0).area(0));
+        let lamp = AreaLight { shape: 0, prim: 0, area, emission, two_sided: false, extra: None };
+        let sky = UniformInfiniteLight { emission: Curve::ONE.into() };
+        let w = tyndall_spectral::Wavelengths::<1>::continuum([550.0], [1.0]);
+        let weigh = |e: &Emission| f64::from(e.sample(&w).hero());
+        let lights = vec![Light::Area(lamp), Light::Infinite(sky)];
+        let set = LightSet::new(lights, 50.0, &weigh).choosing(Selection::Tree, &accel, 50.0, &weigh);
+        let up = vec3(0.0, 1.0, 0.0);
+        let lamp_at = |p, n| set.pmf_at(p, n, LightId(0));
+        // irradiance of the lamp at 1 m: area 0.5 m^2, L = 10; of the sky pi
+        let below = lamp_at(vec3(0.0, 1.0, 0.0), up);
+        assert!((below - 5.0 / (5.0 + std::f32::consts::PI)).abs() < 0.05, "{below}");
+        assert!(lamp_at(vec3(0.0, 1.9, 0.0), up) > 1.1 * below, "under the lamp");
+        assert!((lamp_at(vec3(30.0, 0.0, 0.0), up) - LEAST).abs() < 1e-6, "far away");
+        assert!(lamp_at(vec3(0.0, 1.0, 0.0), Vec3::ZERO) < below, "in a medium");
+        for p in [vec3(0.0, 1.0, 0.0), vec3(30.0, 0.0, 0.0)] {
+            assert!((lamp_at(p, up) + set.pmf_at(p, up, LightId(1)) - 1.0).abs() < 1e-6);
+        }
     }
 }

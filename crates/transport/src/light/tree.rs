@@ -53,10 +53,10 @@ impl LightTree {
         self.add(second, way | 1 << depth, depth + 1);
     }
 
-    /// Whether `p` is near the one light there is, which sends it nothing.
+    /// What all lights together may send to `p` with normal `n`; see [`LightBounds::importance`].
     #[inline(always)]
-    pub fn is_dark(&self, p: Vec3) -> bool {
-        self.nodes.first().is_some_and(|root| root.bounds.is_hollow_at(p))
+    pub fn importance(&self, p: Vec3, n: Vec3) -> f32 {
+        self.nodes.first().map_or(0.0, |root| root.bounds.importance(p, n))
     }
 
     /// Probability of the first child.
