@@ -207,6 +207,8 @@ pub struct Origin<'a, 's, const N: usize> {
     pub order: u32,
     /// The path's time within the shutter.
     pub time: f32,
+    /// The hero is drawn anew at the scattering, which makes densities before and after it independent.
+    pub anew: bool,
 }
 
 /// One sample of the technique on `segment`: the light it adds to the pixel.
@@ -286,7 +288,11 @@ fn connect<const N: usize>(
     let steering = Steering::in_medium((scene, settings), at.lamp, x, inside, w);
     let by_chance =
         if light.is_hidden() { Spectrum::ZERO } else { mixed(steering.as_ref(), phase, wi) * s.r_u };
-    let r = weight.r_u * (s.r_l * technique + flight * (s.r_l * by_light + by_chance));
+    let r = if at.anew {
+        weight.r_u * s.r_l * technique + (s.r_l * by_light + by_chance) * (weight.r_u * flight).mean()
+    } else {
+        weight.r_u * (s.r_l * technique + flight * (s.r_l * by_light + by_chance))
+    };
     Some(divide(weight.beta * f * s.t * l, r))
 }
 

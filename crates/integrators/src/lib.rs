@@ -17,6 +17,7 @@ pub mod medium;
 pub mod observer;
 pub mod opaw;
 pub mod pixel;
+pub mod reuse;
 pub mod settings;
 pub mod shadow;
 pub mod steer;

@@ -71,8 +71,13 @@ impl<'s, const N: usize> Inside<'s, N> {
     /// exp(-(sigma_t,k - sigma_t,hero) t): transmittance over the hero's, which cannot underflow as a quotient could.
     #[inline(always)]
     pub fn transmittance_over_hero(&self, t: f32) -> Spectrum<N> {
-        let hero = self.sigma_t.hero();
-        exp((self.sigma_t - Spectrum::splat(hero)) * -t)
+        self.transmittance_over(self.sigma_t.hero(), t)
+    }
+
+    /// The same over that of an extinction `sigma` \[1/m\].
+    #[inline(always)]
+    pub fn transmittance_over(&self, sigma: f32, t: f32) -> Spectrum<N> {
+        exp((self.sigma_t - Spectrum::splat(sigma)) * -t)
     }
 
     /// Density of a collision at distance `t` that does not end the path, per lane \[1/m\].

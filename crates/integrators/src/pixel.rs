@@ -11,7 +11,7 @@ use crate::{
     swc, volpath, wang_chern,
 };
 use std::sync::Arc;
-use tyndall_base::vec::vec2;
+use tyndall_base::{Vec2, vec::vec2};
 use tyndall_film::{Channels, Guide, Pass, Patch, PixelFilter, WorkUnit};
 use tyndall_geometry::Ray;
 use tyndall_spectral::{Spectrum, WavelengthSampler, Wavelengths};
@@ -136,6 +136,16 @@ pub(crate) struct Start<const N: usize> {
     pub(crate) sampler: PathSampler,
 }
 
+/// The same before its wavelengths are known.
+pub(crate) struct Begin {
+    pub(crate) ray: Ray,
+    pub(crate) exposure: f32,
+    pub(crate) filter: f32,
+    /// Numbers for the wavelengths and the first distance.
+    pub(crate) spectrum: Vec2,
+    pub(crate) sampler: PathSampler,
+}
+
 impl<const N: usize> Start<N> {
     /// Radiance along the ray becomes the pixel's value.
     #[inline(always)]
@@ -207,6 +217,9 @@ impl PixelPass {
 
     #[inline(always)]
     fn run<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
+        if self.shares_paths() {
+            return self.run_shared::<N>(unit, guide, out);
+        }
         let mut values = vec![0.0; self.channels.len()];
         for (x, y) in unit.window.pixels() {
             for sample in guide.samples_for(x, y, &unit.samples) {
@@ -290,19 +303,27 @@ impl PixelPass {
 
     #[inline(always)]
     pub(crate) fn start<const N: usize>(&self, x: u32, y: u32, sample: u32) -> Start<N> {
+        let Begin { ray, exposure, filter, spectrum, sampler } = self.begin(x, y, sample, None);
+        let w = match &self.sharing {
+            Sharing::Means(all) => all.set().group::<N>(0),
+            _ => self.wavelengths.sample::<N>(spectrum.x),
+        };
+        Start { ray, exposure, weight: filter, first_distance: spectrum.y, w, sampler }
+    }
+
+    /// The camera ray of a sample, at `time` or at one of its own.
+    #[inline(always)]
+    pub(crate) fn begin(&self, x: u32, y: u32, sample: u32, time: Option<f32>) -> Begin {
         let mut sampler = PathSampler::new(self.settings.sampler, self.seed, x, y, sample, self.replicates);
         let u_film = sampler.next_2d();
-        let u_spectrum = sampler.next_2d();
+        let spectrum = sampler.next_2d();
         let lens = sampler.next_2d();
-        let time = sampler.next_1d();
+        let own = sampler.next_1d();
+        let time = time.unwrap_or(own);
         let filter = self.filter.sample([u_film.x, u_film.y]);
         let film = vec2(x as f32 + 0.5 + filter.offset[0], y as f32 + 0.5 + filter.offset[1]);
         let (ray, exposure) = self.scene.camera.sample(&CameraSample { film, lens, time });
-        let w = match &self.sharing {
-            Sharing::Means(all) => all.set().group::<N>(0),
-            _ => self.wavelengths.sample::<N>(u_spectrum.x),
-        };
-        Start { ray, exposure, weight: filter.weight, first_distance: u_spectrum.y, w, sampler }
+        Begin { ray, exposure, filter: filter.weight, spectrum, sampler }
     }
 
     #[inline(always)]

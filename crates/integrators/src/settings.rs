@@ -54,6 +54,8 @@ pub struct Settings {
     pub glow: bool,
     /// Learn where light comes from before the first sample, and draw directions from that, too.
     pub guiding: Guiding,
+    /// Paths of neighbouring pixels go on from each other's second scattering.
+    pub reuse: bool,
     /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
     pub roulette_depth: u32,
     /// A path of throughput below this is at risk.
@@ -75,6 +77,7 @@ impl Default for Settings {
             cone_clipping: true,
             glow: true,
             guiding: Guiding::Auto,
+            reuse: true,
             roulette_depth: 1,
             roulette_threshold: 0.25,
         }

@@ -5,22 +5,24 @@
 //! heuristic over techniques and wavelengths at once (see [`crate::weight`]). Media that vary in space are crossed by
 //! null collisions (see [`crate::tracking`]).
 
+mod scatter;
+mod site;
 mod varying;
 
+pub(crate) use site::{MediumSite, Site, SurfaceSite};
+
 use crate::{
-    direct::{self, Rival, Scatterer},
+    direct::Rival,
     equiangular::{self, Segment},
     glow,
     medium::Inside,
     observer::{Event, PathObserver, Vertex},
     settings::{Equiangular, Settings},
-    shadow::Place,
-    steer::{Steering, mixed},
+    steer::Steering,
     weight::{PathWeight, divide},
 };
 use tyndall_base::{Vec3, warp};
 use tyndall_geometry::{Hit, Ray};
-use tyndall_scatter::bsdf::BsdfFlags;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{Interaction, MediumId, Scene, sampler::PathSampler};
 
@@ -54,66 +56,145 @@ pub fn li_from<const N: usize>(
     sampler: &mut PathSampler,
     seen: &mut impl PathObserver<N>,
 ) -> Spectrum<N> {
-    let mut walk = Walk {
-        scene,
-        settings,
-        w,
-        ray,
-        previous: ray.o,
-        facing: Vec3::ZERO,
-        medium,
-        inside: Inside::of(scene, medium, w),
-        weight,
-        rival: None,
-        lamp: glow::lamp(scene, settings, sampler),
-        flight: warp::sample_exponential(first, 1.0),
-        depth: 0,
-        crossings: 0,
-        eta_scale: 1.0,
-        scattered_widely: false,
-        l: Spectrum::ZERO,
-    };
-    while walk.step(sampler, seen) {}
+    let mut walk = Walk::new(scene, settings, (weight, medium), ray, first, w);
+    walk.lamp = glow::lamp(scene, settings, sampler);
+    walk.follow(&mut None, u32::MAX, sampler, seen);
     walk.l
 }
 
 /// The state of a path.
-struct Walk<'s, const N: usize> {
+pub(crate) struct Walk<'s, const N: usize> {
     scene: &'s Scene,
     settings: &'s Settings,
     w: &'s Wavelengths<N>,
-    ray: Ray,
+    pub ray: Ray,
     /// The last scattering, from which densities of light sampling are measured.
     previous: Vec3,
     /// Normal of the surface there, zero in a medium.
     facing: Vec3,
     medium: MediumId,
     inside: Option<Inside<'s, N>>,
-    weight: PathWeight<N>,
+    pub weight: PathWeight<N>,
     /// The equiangular technique of the last scattering.
-    rival: Option<Rival>,
+    pub rival: Option<Rival>,
     /// The point whose glow attracts the path.
-    lamp: Option<Vec3>,
-    /// Optical distance to the next collision at the hero's wavelength; one number serves all boundaries on the way.
+    pub lamp: Option<Vec3>,
+    /// Optical distance to the next collision at the wavelength of the lane `pilot`; one number serves all boundaries on
+    /// the way.
     flight: f32,
-    depth: u32,
+    /// The same where the path scattered last.
+    drawn: f32,
+    /// The lane whose extinction decides where flights end: the hero, but for paths that are shared (see [`crate::reuse`])
+    /// before they scatter first.
+    pub pilot: usize,
+    /// Scatterings so far.
+    pub depth: u32,
     crossings: u32,
     /// Squared relative index of refraction along the path: undoes the compression of radiance in roulette.
     eta_scale: f32,
     /// Some scattering was not specular.
     scattered_widely: bool,
-    l: Spectrum<N>,
+    /// Equiangular samples are left out on the next segment.
+    pub plain: bool,
+    /// The hero is drawn anew at the first scattering, so that densities before and after it are apart.
+    pub anew: bool,
+    /// What the path brought so far.
+    pub l: Spectrum<N>,
+}
+
+/// What one segment leads to.
+#[expect(clippy::large_enum_variant, reason = "lives on the stack of one path")]
+enum Step<'s, const N: usize> {
+    /// The path goes on, through a boundary or from a scattering within a medium that varies.
+    On,
+    /// It scatters here.
+    Site(Site<'s, N>),
+    /// It ends.
+    End,
 }
 
 impl<'s, const N: usize> Walk<'s, N> {
-    /// One segment and the event at its end; false when the path ends.
+    /// A path along `ray`; `first` is the random number of the first flight.
     #[inline(always)]
-    fn step(&mut self, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> bool {
+    pub fn new(
+        scene: &'s Scene,
+        settings: &'s Settings,
+        (weight, medium): (PathWeight<N>, MediumId),
+        ray: Ray,
+        first: f32,
+        w: &'s Wavelengths<N>,
+    ) -> Self {
+        Self {
+            scene,
+            settings,
+            w,
+            ray,
+            previous: ray.o,
+            facing: Vec3::ZERO,
+            medium,
+            inside: Inside::of(scene, medium, w),
+            weight,
+            rival: None,
+            lamp: None,
+            flight: warp::sample_exponential(first, 1.0),
+            drawn: 0.0,
+            pilot: 0,
+            depth: 0,
+            crossings: 0,
+            eta_scale: 1.0,
+            scattered_widely: false,
+            plain: false,
+            anew: false,
+            l: Spectrum::ZERO,
+        }
+    }
+
+    /// Follows the path from `site`, or from where it starts, until it ends or is about to scatter for the time number
+    /// `until`: then `site` says where.
+    #[inline(always)]
+    pub fn follow(
+        &mut self,
+        site: &mut Option<Site<'s, N>>,
+        until: u32,
+        sampler: &mut PathSampler,
+        seen: &mut impl PathObserver<N>,
+    ) {
+        loop {
+            if let Some(at) = site {
+                let goes_on = match at {
+                    Site::Medium(at) => self.scatter_medium(at, sampler, seen),
+                    Site::Surface(at) => self.scatter_surface(at, sampler, seen),
+                };
+                if !goes_on {
+                    break;
+                }
+            }
+            let mut ended = false;
+            *site = loop {
+                match self.segment(sampler, seen) {
+                    Step::On => {}
+                    Step::Site(at) => break Some(at),
+                    Step::End => {
+                        ended = true;
+                        break None;
+                    }
+                }
+            };
+            if ended || self.depth == until {
+                return;
+            }
+        }
+        *site = None;
+    }
+
+    /// One segment, to where the path scatters or passes.
+    #[inline(always)]
+    fn segment(&mut self, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> Step<'s, N> {
         let hit = self.scene.intersect(&self.ray);
         let t_max = hit.as_ref().map_or(f32::INFINITY, |h| h.t);
         if let Some(medium) = self.inside.and_then(|inside| inside.varying) {
             if let Some(goes_on) = self.travel(medium, t_max, sampler, seen) {
-                return goes_on;
+                return if goes_on { Step::On } else { Step::End };
             }
         } else if let Some(inside) = self.inside {
             self.emission(&inside, t_max, seen);
@@ -122,15 +203,30 @@ impl<'s, const N: usize> Walk<'s, N> {
             } else {
                 let segment = self.equiangular(&inside, t_max, sampler, seen);
                 if let Some(t) = self.collision(&inside, t_max) {
-                    return self.scatter_medium(&inside, t, segment, sampler, seen);
+                    return self.collide(inside, t, segment, sampler, seen).map_or(Step::End, Step::Site);
                 }
                 self.pass(&inside, t_max);
             }
         }
         match hit {
-            None => self.escape(seen),
+            None => {
+                self.escape(seen);
+                Step::End
+            }
             Some(hit) => self.surface(&hit, sampler, seen),
         }
+    }
+
+    /// The path's wavelengths.
+    #[inline(always)]
+    pub fn w(&self) -> &'s Wavelengths<N> {
+        self.w
+    }
+
+    /// Optical distance since the last scattering, at the hero's wavelength.
+    #[inline(always)]
+    pub fn flown(&self) -> f32 {
+        self.drawn - self.flight
     }
 
     /// Adds `value / mean(r)` to the pixel.
@@ -158,7 +254,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
     ) -> Option<Segment> {
-        if self.depth >= self.settings.max_depth {
+        if self.plain || self.depth >= self.settings.max_depth {
             return None;
         }
         if self.settings.equiangular == Equiangular::Auto && self.depth > self.settings.equiangular_depth {
@@ -172,6 +268,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             lamp: self.lamp,
             order: self.depth + 1,
             time: self.ray.time,
+            anew: self.anew,
         };
         self.l += equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler, seen);
         Some(segment)
@@ -180,7 +277,7 @@ impl<'s, const N: usize> Walk<'s, N> {
     /// Distance of the collision on this segment, or `None` when the flight gets through.
     #[inline(always)]
     fn collision(&mut self, inside: &Inside<'s, N>, t_max: f32) -> Option<f32> {
-        let hero = inside.sigma_t.hero();
+        let hero = inside.sigma_t[self.pilot];
         let tau = hero * t_max;
         // 0 * infinity: no extinction over an unbounded segment is no collision
         if self.flight >= tau || hero <= 0.0 {
@@ -214,11 +311,12 @@ impl<'s, const N: usize> Walk<'s, N> {
         if t_max == f32::INFINITY {
             return;
         }
-        let ratio = inside.transmittance_over_hero(t_max);
+        let pilot = inside.sigma_t[self.pilot];
+        let ratio = inside.transmittance_over(pilot, t_max);
         self.weight.fly(ratio, ratio);
         // light and equiangular samples do not draw this flight: their density lacks the hero's probability of it
         let lost = if self.settings.exact_transmittance {
-            Spectrum::splat(crate::weight::exp(Spectrum([inside.sigma_t.hero() * t_max])).hero())
+            Spectrum::splat(crate::weight::exp(Spectrum([pilot * t_max])).hero())
         } else {
             ratio
         };
@@ -226,20 +324,20 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.weight.r_e *= lost;
     }
 
-    /// A collision at distance `t`.
+    /// A collision at distance `t`; `None` where the path ends.
     #[inline(always)]
-    fn scatter_medium(
+    fn collide(
         &mut self,
-        inside: &Inside<'s, N>,
+        inside: Inside<'s, N>,
         t: f32,
         segment: Option<Segment>,
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
-    ) -> bool {
+    ) -> Option<Site<'s, N>> {
         let p = self.ray.at(t);
         self.watch(Event::Medium, p, Vec3::ZERO, t, inside.sigma_s.safe_div(inside.sigma_t), seen);
         if self.depth >= self.settings.max_depth {
-            return false;
+            return None;
         }
         self.depth += 1;
         sampler.seek_vertex(self.depth - 1);
@@ -247,60 +345,31 @@ impl<'s, const N: usize> Walk<'s, N> {
         if !self.settings.survival {
             let albedo = inside.sigma_s.hero() / inside.sigma_t.hero();
             if sampler.next_1d() >= albedo {
-                return false;
+                return None;
             }
         }
         let before = self.weight.r_u;
         let coefficient = inside.collision_coefficient(self.settings);
-        let hero = coefficient.hero();
-        let ratio = inside.transmittance_over_hero(t) * (1.0 / hero);
+        let (hero, pilot) = (coefficient[self.pilot], inside.sigma_t[self.pilot]);
+        let ratio = inside.transmittance_over(pilot, t) * (1.0 / hero);
         self.weight.fly(inside.sigma_s * ratio, coefficient * ratio);
         if self.weight.beta.is_zero() {
-            return false;
+            return None;
         }
         // the equiangular technique could have put a vertex here without this flight
-        let to_hero = crate::weight::exp(Spectrum([inside.sigma_t.hero() * t])).hero() / hero;
+        let to_hero = crate::weight::exp(Spectrum([pilot * t])).hero() / hero;
+        self.flight = 0.0;
         self.weight.r_e = if segment.is_some() { before * to_hero } else { Spectrum::ZERO };
         self.rival = segment.map(|segment| Rival { segment, t });
         (self.previous, self.facing) = (p, Vec3::ZERO);
         self.scattered_widely = true;
-
-        let wo = -self.ray.d;
-        let steering = Steering::in_medium((self.scene, self.settings), self.lamp, p, inside, self.w);
-        if self.settings.light_sampling {
-            let medium = self.medium;
-            let vertex = Scatterer {
-                p,
-                n: Vec3::ZERO,
-                spawn: |_| (p, medium),
-                eval: |wi| {
-                    let phase = inside.phase.eval(wo, wi, self.w);
-                    (phase, mixed(steering.as_ref(), phase, wi))
-                },
-                rival: self.rival,
-                surface: None,
-                known: Place { medium, inside: Some(inside), time: self.ray.time },
-            };
-            self.direct(&vertex, sampler, seen);
-        }
-        let u = sampler.next_2d();
-        let mut u = [u.x, u.y];
-        let (wi, phase) = if let Some(wi) = steering.and_then(|s| s.sample(&mut u)) {
-            (wi, inside.phase.eval(wo, wi, self.w))
-        } else {
-            let s = inside.phase.sample(wo, u, self.w);
-            (s.wi, s.p)
-        };
-        if !self.weight.scatter(phase, mixed(steering.as_ref(), phase, wi), false) {
-            return false;
-        }
-        self.ray = Ray { time: self.ray.time, ..Ray::new(p, wi) };
-        self.survives(sampler)
+        let steering = Steering::in_medium((self.scene, self.settings), self.lamp, p, &inside, self.w);
+        Some(Site::Medium(MediumSite { p, wo: -self.ray.d, medium: self.medium, inside, steering }))
     }
 
     /// Light from infinity.
     #[inline(always)]
-    fn escape(&mut self, seen: &mut impl PathObserver<N>) -> bool {
+    fn escape(&mut self, seen: &mut impl PathObserver<N>) {
         let far = self.ray.o + self.ray.d;
         self.watch(Event::Escape, far, Vec3::ZERO, f32::INFINITY, Spectrum::ZERO, seen);
         for &id in self.scene.lights.infinite() {
@@ -311,7 +380,6 @@ impl<'s, const N: usize> Walk<'s, N> {
             let r = self.weight.r_u + self.weight.r_l * self.by_light(pdf);
             self.add(self.weight.beta * le, r, seen);
         }
-        false
     }
 
     /// `pdf` where light sampling competes, else 0.
@@ -322,11 +390,16 @@ impl<'s, const N: usize> Walk<'s, N> {
 
     /// A surface at the end of the segment.
     #[inline(always)]
-    fn surface(&mut self, hit: &Hit, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> bool {
+    fn surface(
+        &mut self,
+        hit: &Hit,
+        sampler: &mut PathSampler,
+        seen: &mut impl PathObserver<N>,
+    ) -> Step<'s, N> {
         let isect = self.scene.interaction(&self.ray, hit);
         self.emitted(hit, &isect, seen);
         if isect.material.is_interface() {
-            return self.cross(&isect, hit.t, seen);
+            return if self.cross(&isect, hit.t, seen) { Step::On } else { Step::End };
         }
         let material = &self.scene.materials[isect.material.index()];
         let (frame, mut bsdf) = material.shade(&isect.surface, self.w);
@@ -339,68 +412,23 @@ impl<'s, const N: usize> Walk<'s, N> {
         let wo = frame.to_local(-self.ray.d);
         self.watch_surface(&isect, frame.z, hit.t, seen);
         if self.depth >= self.settings.max_depth {
-            return false;
+            return Step::End;
         }
         self.depth += 1;
         sampler.seek_vertex(self.depth - 1);
         self.weight.r_e = Spectrum::ZERO;
         self.rival = None;
         (self.previous, self.facing) = (isect.surface.p, isect.surface.ng);
-
         let n = if wo.z < 0.0 { -frame.z } else { frame.z };
-        let inside = self.inside.as_ref();
         let steering = Steering::on_surface(
             (self.scene, self.settings),
             self.lamp,
             isect.surface.p,
             n,
             bsdf.flags(),
-            inside,
+            self.inside.as_ref(),
         );
-        if self.settings.light_sampling && !bsdf.is_delta() {
-            let (medium, inside) = (self.medium, self.inside);
-            let vertex = Scatterer {
-                p: isect.surface.p,
-                n: isect.surface.ng,
-                spawn: |wi| (isect.surface.origin(wi), isect.medium_towards(wi, medium)),
-                eval: |wi| {
-                    let local = frame.to_local(wi);
-                    (bsdf.eval(wo, local) * local.z.abs(), mixed(steering.as_ref(), bsdf.pdf(wo, local), wi))
-                },
-                rival: None,
-                surface: Some(&isect.surface),
-                known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
-            };
-            self.direct(&vertex, sampler, seen);
-        }
-        let uc = sampler.next_1d();
-        let u = sampler.next_2d();
-        let mut u = [u.x, u.y];
-        let wi;
-        if let Some(towards) = steering.and_then(|s| s.sample(&mut u)) {
-            wi = towards;
-            let local = frame.to_local(wi);
-            self.scattered_widely = true;
-            if !self.weight.scatter(
-                bsdf.eval(wo, local) * local.z.abs(),
-                mixed(steering.as_ref(), bsdf.pdf(wo, local), wi),
-                false,
-            ) {
-                return false;
-            }
-        } else {
-            let Some(s) = bsdf.sample(wo, uc, u) else { return false };
-            wi = frame.from_local(s.wi);
-            let delta = s.flags.contains(BsdfFlags::DELTA);
-            self.scattered_widely |= !delta;
-            let pdf = mixed(steering.as_ref(), s.pdf, wi);
-            if !self.weight.scatter(s.f * s.wi.z.abs(), pdf, delta) {
-                return false;
-            }
-            self.eta_scale *= s.eta * s.eta;
-        }
-        self.go(&isect, wi);
-        self.survives(sampler)
+        Step::Site(Site::Surface(SurfaceSite { isect, frame, bsdf, wo, medium: self.medium, inside: self.inside, steering }))
     }
 
     /// Light that the surface emits towards the path.
@@ -444,40 +472,6 @@ impl<'s, const N: usize> Walk<'s, N> {
             self.medium = medium;
             self.inside = Inside::entered(self.scene, medium, Some(&isect.surface), self.w);
         }
-    }
-
-    /// Light sampling at a vertex.
-    #[inline(always)]
-    fn direct<S, F>(
-        &mut self,
-        vertex: &Scatterer<'_, '_, S, F, N>,
-        sampler: &mut PathSampler,
-        seen: &mut impl PathObserver<N>,
-    ) where
-        S: Fn(Vec3) -> (Vec3, MediumId),
-        F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
-    {
-        let value = direct::sample(self.scene, self.settings, vertex, &self.weight, self.w, sampler);
-        seen.contribution(self.depth, &value);
-        self.l += value;
-    }
-
-    /// Russian roulette on the throughput the lanes agree on, and the next flight.
-    #[inline(always)]
-    fn survives(&mut self, sampler: &mut PathSampler) -> bool {
-        self.flight = warp::sample_exponential(sampler.next_1d(), 1.0);
-        if self.depth <= self.settings.roulette_depth {
-            return true;
-        }
-        let q = self.weight.throughput().max_lane() * self.eta_scale / self.settings.roulette_threshold;
-        if q >= 1.0 {
-            return true;
-        }
-        if sampler.next_1d() >= q {
-            return false;
-        }
-        self.weight.survive(q);
-        true
     }
 
     /// Tells the observer of a surface.

@@ -114,6 +114,7 @@ const KNOWN: &[&str] = &[
     "roulettedepth",
     "glow",
     "guiding",
+    "pathreuse",
     "roulettethreshold",
     "samplebsdf",
     "samplelights",
@@ -209,6 +210,7 @@ fn settings(p: &ParamSet, method: Method) -> Result<Settings, Error> {
         cone_clipping: p.bool("coneclipping", default.cone_clipping)?,
         glow: p.bool("glow", default.glow)?,
         guiding: when(p, "guiding", [Guiding::Auto, Guiding::Off, Guiding::Always])?,
+        reuse: p.bool("pathreuse", default.reuse)?,
         roulette_depth: if p.bool("russianroulette", true)? { roulette } else { u32::MAX },
         roulette_threshold: threshold,
         ..default

@@ -1,0 +1,177 @@
+//! Where shared paths begin and end: what `x_i` must know of `y_k`, and the ray between them.
+
+use crate::{
+    glow::openness,
+    medium::Inside,
+    settings::Settings,
+    shadow::{End, Place, Shadow, shadow},
+    volpath::{Site, Walk},
+    weight::exp,
+};
+use tyndall_base::Vec3;
+use tyndall_geometry::SurfacePoint;
+use tyndall_scatter::{
+    bsdf::{Bsdf, BsdfFlags},
+    phase::PhaseFunction,
+};
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::{Scene, light::Target, sampler::PathSampler};
+
+/// Media whose phase functions are narrower send too little to the points of others.
+const LEAST_OPEN: f32 = 0.3;
+
+impl<const N: usize> Site<'_, N> {
+    /// The point \[m\].
+    #[inline(always)]
+    pub fn p(&self) -> Vec3 {
+        match self {
+            Self::Medium(at) => at.p,
+            Self::Surface(at) => at.isect.surface.p,
+        }
+    }
+
+    /// Whether paths of others may begin here: what scatters leaves all directions open.
+    #[inline(always)]
+    pub fn may_begin(&self, w: &Wavelengths<N>) -> bool {
+        match self {
+            Self::Medium(at) => openness(at.inside.phase, w) >= LEAST_OPEN,
+            Self::Surface(at) => at.bsdf.flags() == BsdfFlags::DIFFUSE | BsdfFlags::REFLECTION,
+        }
+    }
+
+    /// `(f |cos|, density)` \[1/sr\] of going on towards `wi`, per lane.
+    #[inline(always)]
+    fn eval(&self, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+        match self {
+            Self::Medium(at) => at.eval(wi, w),
+            Self::Surface(at) => at.eval(wi),
+        }
+    }
+
+    /// What lies between this point and `target`, which is in the direction `wi`.
+    #[inline(always)]
+    fn sees(
+        &self,
+        scene: &Scene,
+        settings: &Settings,
+        wi: Vec3,
+        (target, time): (Target, f32),
+        w: &Wavelengths<N>,
+        sampler: &mut PathSampler,
+    ) -> Option<Shadow<N>> {
+        let entered;
+        let (o, medium, inside) = match self {
+            Self::Medium(at) => (at.p, at.medium, Some(&at.inside)),
+            Self::Surface(at) => {
+                let (o, medium) = at.spawn(wi);
+                if medium == at.medium {
+                    (o, medium, at.inside.as_ref())
+                } else {
+                    entered = Inside::entered(scene, medium, Some(&at.isect.surface), w);
+                    (o, medium, entered.as_ref())
+                }
+            }
+        };
+        shadow(scene, settings, o, Place { medium, inside, time }, End::At(target), w, sampler)
+    }
+}
+
+/// A second scattering that others may go on from: it sends the same light in all directions on its side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shared<const N: usize> {
+    target: Target,
+    time: f32,
+    /// Geometric and shading normal of a surface on the side that the path came from.
+    facing: Option<[Vec3; 2]>,
+    /// What collides per metre, and what scatters; 1 on a surface.
+    density: Spectrum<N>,
+    scattering: Spectrum<N>,
+    /// Density of the point as its own path drew it: the hero's, per volume or area.
+    pub own: f32,
+}
+
+/// Contribution and density of `y_k` as reached from some `x_i`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link<const N: usize> {
+    /// `beta_i F(x_i, y_k)`.
+    pub through: Spectrum<N>,
+    /// `p_l(y_k | x_i)`.
+    pub density: Spectrum<N>,
+}
+
+impl<const N: usize> Shared<N> {
+    /// The site that `walk` reached from `from`, if others may go on from it.
+    #[inline(always)]
+    pub fn new(walk: &Walk<'_, N>, from: &Site<'_, N>, at: &Site<'_, N>) -> Option<Self> {
+        let mut shared = match at {
+            Site::Medium(at) => {
+                if !matches!(at.inside.phase, PhaseFunction::Isotropic) {
+                    return None;
+                }
+                let (density, scattering) = (at.inside.sigma_t, at.inside.sigma_s);
+                let target = Target::free(at.p);
+                Self { target, time: walk.ray.time, facing: None, density, scattering, own: 0.0 }
+            }
+            Site::Surface(at) => {
+                let Bsdf::Diffuse(_) = at.bsdf else { return None };
+                let SurfacePoint { p, rounding, ng, .. } = at.isect.surface;
+                let facing = Some([ng, at.frame.z].map(|n| if n.dot(walk.ray.d) < 0.0 { n } else { -n }));
+                let target = Target { p, rounding, n: ng, pdf_area: 1.0 };
+                let one = Spectrum::ONE;
+                Self { target, time: walk.ray.time, facing, density: one, scattering: one, own: 0.0 }
+            }
+        };
+        let to = shared.target.p - from.p();
+        let r2 = to.length_squared();
+        let towards = from.eval(walk.ray.d, walk.w()).1.hero();
+        let passed = exp(Spectrum([-walk.flown()])).hero();
+        shared.own = towards * passed * shared.density.hero() * shared.geometry(walk.ray.d, r2)?;
+        shared.own.is_normal().then_some(shared)
+    }
+
+    /// Volume or area per solid angle, inverse; `None` for the side that the path did not come from.
+    #[inline(always)]
+    fn geometry(&self, wi: Vec3, r2: f32) -> Option<f32> {
+        let cos = match self.facing {
+            None => 1.0,
+            Some([ng, ns]) => {
+                if ns.dot(wi) >= 0.0 {
+                    return None;
+                }
+                -ng.dot(wi)
+            }
+        };
+        (cos > 0.0 && r2 > 0.0).then(|| cos / r2)
+    }
+
+    /// The point as its own path reached it.
+    #[inline(always)]
+    pub fn own_link(&self, walk: &Walk<'_, N>) -> Link<N> {
+        Link { through: walk.weight.beta * self.own, density: walk.weight.r_u * self.own }
+    }
+
+    /// The point as reached from `from`, at which the throughput is `beta`; `None` where it is not seen from there.
+    #[inline(always)]
+    pub fn link(
+        &self,
+        (scene, settings): (&Scene, &Settings),
+        from: &Site<'_, N>,
+        beta: Spectrum<N>,
+        w: &Wavelengths<N>,
+        sampler: &mut PathSampler,
+    ) -> Option<Link<N>> {
+        let to = self.target.p - from.p();
+        let r2 = to.length_squared();
+        let wi = to * (1.0 / r2.sqrt());
+        let geometry = self.geometry(wi, r2)?;
+        let (f, pdf) = from.eval(wi, w);
+        if pdf.is_zero() {
+            return None;
+        }
+        let passed = from.sees(scene, settings, wi, (self.target, self.time), w, sampler)?;
+        Some(Link {
+            through: beta * f * passed.t * self.scattering * geometry,
+            density: pdf * passed.r_u * self.density * geometry,
+        })
+    }
+}

@@ -1,0 +1,192 @@
+//! The paths of one square of pixels that share their number.
+
+use super::{MEMBERS, SIDE, end::{Link, Shared}};
+use crate::{
+    glow,
+    pixel::{Begin, PixelPass},
+    volpath::{Site, Walk},
+    weight::{PathWeight, divide},
+};
+use tyndall_film::{Guide, Patch, PixelBounds, WorkUnit};
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::sampler::PathSampler;
+
+/// A pixel's path.
+struct Member<'s, const N: usize> {
+    pixel: (u32, u32),
+    exposure: f32,
+    filter: f32,
+    walk: Walk<'s, N>,
+    sampler: PathSampler,
+    /// Where the path scatters next.
+    site: Option<Site<'s, N>>,
+    /// The first scattering and the throughput there, if others' paths may begin there.
+    from: Option<(Site<'s, N>, Spectrum<N>)>,
+    /// What the pixel gets.
+    l: Spectrum<N>,
+}
+
+/// Room for the paths of a square.
+type Members<'s, const N: usize> = [Option<Member<'s, N>>; MEMBERS];
+
+impl PixelPass {
+    /// A unit of work with paths shared.
+    #[inline(always)]
+    pub(crate) fn run_shared<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
+        let mut values = vec![0.0; self.channels.len()];
+        for square in unit.window.tiles(SIDE) {
+            for sample in unit.samples.clone() {
+                self.square::<N>(&square, sample, (unit, guide), &mut values, out);
+            }
+        }
+    }
+
+    /// Sample number `sample` of the pixels of a square that take it.
+    #[inline(always)]
+    fn square<const N: usize>(
+        &self,
+        square: &PixelBounds,
+        sample: u32,
+        (unit, guide): (&WorkUnit, &Guide),
+        values: &mut [f32],
+        out: &mut Patch,
+    ) {
+        let (gx, gy) = (square.x0, square.y0);
+        let group =
+            PathSampler::of_group(self.settings.sampler, self.seed, gx, gy, sample, self.replicates);
+        let mut common = group.clone();
+        let (u, time) = (common.next_1d(), common.next_1d());
+        let w = self.wavelengths.sample::<N>(u);
+        let mut members: Members<'_, N> = [const { None }; MEMBERS];
+        for (x, y) in square.pixels() {
+            if guide.samples_for(x, y, &unit.samples).contains(&sample) {
+                out.mark(x, y, sample);
+                let slot = ((y - gy) * SIDE + x - gx) as usize;
+                members[slot] = Some(self.set_out((x, y), sample, (&group, slot), (u, time), &w));
+            }
+        }
+        for k in 0..MEMBERS {
+            let Some(member) = &members[k] else { continue };
+            out.mark(member.pixel.0, member.pixel.1, sample);
+            self.go_on(&mut members, k, &w);
+        }
+        let response = self.channels.prepare(&w);
+        for member in members.iter().flatten() {
+            let (x, y) = member.pixel;
+            self.channels.respond_prepared(&(member.l * member.exposure), &response, values);
+            out.add_sample(x, y, sample, member.filter, values);
+        }
+    }
+
+    /// Follows a path to its second scattering.
+    #[inline(always)]
+    fn set_out<'s, const N: usize>(
+        &'s self,
+        pixel: (u32, u32),
+        sample: u32,
+        (group, slot): (&PathSampler, usize),
+        (u, time): (f32, f32),
+        w: &'s Wavelengths<N>,
+    ) -> Member<'s, N> {
+        let (scene, settings) = (&*self.scene, &self.settings);
+        let Begin { ray, exposure, filter, spectrum, mut sampler } =
+            self.begin(pixel.0, pixel.1, sample, Some(time));
+        let start = (PathWeight::START, scene.camera_medium);
+        let mut walk = Walk::new(scene, settings, start, ray, spectrum.y, w);
+        walk.lamp = glow::lamp(scene, settings, &mut sampler);
+        walk.pilot = lane_of::<N>(spectrum.x, u);
+        walk.anew = true;
+        let mut sampler = sampler.joining(group, slot as u32, MEMBERS as u32);
+        let (mut site, mut from) = (None, None);
+        if exposure != 0.0 {
+            // twice the same call would be compiled twice
+            for scatterings in 1..=2 {
+                walk.follow(&mut site, scatterings, &mut sampler, &mut ());
+                let Some(at) = site.as_ref().filter(|_| scatterings == 1) else { break };
+                walk.part();
+                if at.may_begin(w) {
+                    from = Some((*at, walk.weight.beta));
+                    walk.plain = true;
+                }
+            }
+        }
+        walk.plain = false;
+        Member { pixel, exposure, filter, walk, sampler, site, from, l: Spectrum::ZERO }
+    }
+
+    /// Follows path `k` to its end; all members get their part.
+    #[inline(always)]
+    fn go_on<'s, const N: usize>(&self, members: &mut Members<'s, N>, k: usize, w: &Wavelengths<N>) {
+        let Some(mut member) = members[k].take() else { return };
+        let mut links = [Spectrum::ZERO; MEMBERS];
+        let mut through = Spectrum::ZERO;
+        let shared = match (&member.site, &member.from) {
+            (Some(at), Some((from, _))) => Shared::new(&member.walk, from, at),
+            _ => None,
+        };
+        if let Some(shared) = &shared {
+            let mut density = Spectrum::ZERO;
+            for i in 0..MEMBERS {
+                let link = if i == k {
+                    Some(shared.own_link(&member.walk))
+                } else if let Some(Member { from: Some((from, beta)), .. }) = &members[i] {
+                    shared.link((&self.scene, &self.settings), from, *beta, w, &mut member.sampler)
+                } else {
+                    None
+                };
+                if let Some(Link { through: t, density: d }) = link {
+                    links[i] = t;
+                    through += t;
+                    density += d;
+                }
+            }
+            let own = 1.0 / shared.own;
+            member.l += member.walk.restart(through * own, density * own);
+        }
+        if member.site.is_some() {
+            member.walk.follow(&mut member.site, u32::MAX, &mut member.sampler, &mut ());
+        }
+        let l = member.walk.l;
+        if shared.is_none() {
+            member.l += l;
+        }
+        members[k] = Some(member);
+        if shared.is_some() && !l.is_zero() {
+            let l = l.safe_div(through);
+            for (i, member) in members.iter_mut().enumerate() {
+                if let Some(member) = member {
+                    member.l += l * links[i];
+                }
+            }
+        }
+    }
+}
+
+impl<const N: usize> Walk<'_, N> {
+    /// The first scattering: the lane that led there is forgotten, so that densities of what follows are apart from those
+    /// before.
+    #[inline(always)]
+    fn part(&mut self) {
+        let r = self.weight.r_u;
+        self.weight.beta = divide(self.weight.beta, r);
+        self.weight.r_e = divide(self.weight.r_e, r);
+        self.weight.r_u = Spectrum::ONE;
+        self.pilot = 0;
+        self.anew = false;
+    }
+
+    /// Goes on as a path that begins where this one is, with this weight; returns what it brought so far.
+    #[inline(always)]
+    fn restart(&mut self, beta: Spectrum<N>, r_u: Spectrum<N>) -> Spectrum<N> {
+        self.weight = PathWeight { beta, r_u, r_l: Spectrum::ZERO, r_e: Spectrum::ZERO };
+        self.rival = None;
+        std::mem::replace(&mut self.l, Spectrum::ZERO)
+    }
+}
+
+/// The lane that lies in the same N-th of the wavelengths as `v`, where lane 0 was drawn by `u`.
+#[inline(always)]
+fn lane_of<const N: usize>(v: f32, u: f32) -> usize {
+    let part = |u: f32| (u * N as f32) as usize;
+    (part(v) + N - part(u)) % N
+}

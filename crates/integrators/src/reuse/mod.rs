@@ -1,0 +1,50 @@
+//! Paths of neighbouring pixels go on from each other's second scattering (Bekaert, Sbert & Halton 2002, *Accelerating
+//! path tracing by re-using paths*).
+//!
+//! Path k scatters at `x_k`, then at `y_k`, where light of all further orders is worked out once. Every `x_i` of the group
+//! is joined to every `y_k` by a ray; with the balance heuristic over the points that could have sent a path there,
+//!
+//! ```text
+//! L_i = sum_k beta_i F(x_i, y_k) S(y_k),    S(y_k) = sum over light c of  value_c / mean_l( r_c,l sum_m p_l(y_k | x_m) )
+//! ```
+//!
+//! per lane, with `l` running over the path's wavelengths as heroes. `F` holds what scatters, the geometry and the
+//! transmittance; `p_l(y | x)` is the density of `y`, per volume or area, of a path that scatters at `x` and is led by lane
+//! l. The denominator does not depend on the pixel, so that a path simply starts anew at `y_k` with the density
+//! `sum_m p_l(y_k | x_m)`, and what it brings is dealt out in proportion to `beta_i F(x_i, y_k)`.
+//!
+//! The paths of a group share their wavelengths and their time. Distances to `x_i` are led by a lane that is drawn for
+//! itself ([`crate::volpath::Walk::pilot`]), so that where the points lie does not depend on the hero of what follows;
+//! then the weights sum to one for every hero. Pixels of a group have errors in common: [`SIDE`] says which.
+
+mod end;
+mod group;
+
+use crate::{
+    pixel::{Method, PixelPass, Sharing},
+    settings::Settings,
+};
+use tyndall_transport::{Scene, media::Medium};
+
+/// Side of the squares of pixels whose paths are shared, counted from the film's origin.
+pub const SIDE: u32 = 4;
+/// Pixels of a square.
+pub(crate) const MEMBERS: usize = (SIDE * SIDE) as usize;
+
+impl PixelPass {
+    /// Whether paths of neighbouring pixels are shared.
+    pub fn shares_paths(&self) -> bool {
+        let plain = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero);
+        plain && self.layers.is_empty() && allowed(&self.settings) && possible(&self.scene)
+    }
+}
+
+/// Densities of flights must be known in closed form, and must not depend on the path before.
+fn allowed(s: &Settings) -> bool {
+    s.reuse && s.exact_transmittance && s.survival && !s.regularize && s.roulette_depth >= 1 && s.max_depth >= 2
+}
+
+/// So must those of passing between two points.
+fn possible(scene: &Scene) -> bool {
+    !scene.has_alpha && !scene.media.iter().any(|m| matches!(m, Medium::Heterogeneous(_)))
+}

@@ -1,0 +1,80 @@
+//! Where a path scatters: a point of a medium or of a surface, with all that scattering there needs.
+
+use crate::{
+    medium::Inside,
+    steer::{Steering, mixed},
+};
+use tyndall_base::Vec3;
+use tyndall_geometry::Frame;
+use tyndall_scatter::bsdf::Bsdf;
+use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_transport::{Interaction, MediumId};
+
+/// A point of a homogeneous medium.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MediumSite<'s, const N: usize> {
+    /// The point \[m\].
+    pub p: Vec3,
+    /// Unit direction that the path came from.
+    pub wo: Vec3,
+    /// The medium there.
+    pub medium: MediumId,
+    /// Its coefficients.
+    pub inside: Inside<'s, N>,
+    /// What draws directions beside the phase function.
+    pub steering: Option<Steering<'s>>,
+}
+
+impl<const N: usize> MediumSite<'_, N> {
+    /// `(phase function, density)` \[1/sr\] of going on towards `wi`, per lane.
+    #[inline(always)]
+    pub fn eval(&self, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+        let phase = self.inside.phase.eval(self.wo, wi, w);
+        (phase, mixed(self.steering.as_ref(), phase, wi))
+    }
+}
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfaceSite<'s, const N: usize> {
+    /// The point and what is bound to it.
+    pub isect: Interaction<'s>,
+    /// Shading frame.
+    pub frame: Frame,
+    /// The surface at the path's wavelengths.
+    pub bsdf: Bsdf<'s, N>,
+    /// Unit direction that the path came from, in the shading frame.
+    pub wo: Vec3,
+    /// The medium that the path came through.
+    pub medium: MediumId,
+    /// Its coefficients.
+    pub inside: Option<Inside<'s, N>>,
+    /// What draws directions beside the BSDF.
+    pub steering: Option<Steering<'s>>,
+}
+
+impl<const N: usize> SurfaceSite<'_, N> {
+    /// `(f |cos|, density)` \[1/sr\] of going on towards `wi`, per lane.
+    #[inline(always)]
+    pub fn eval(&self, wi: Vec3) -> (Spectrum<N>, Spectrum<N>) {
+        let local = self.frame.to_local(wi);
+        let (f, pdf) = self.bsdf.eval_pdf(self.wo, local);
+        (f * local.z.abs(), mixed(self.steering.as_ref(), pdf, wi))
+    }
+
+    /// Where a ray along `wi` starts, and in which medium.
+    #[inline(always)]
+    pub fn spawn(&self, wi: Vec3) -> (Vec3, MediumId) {
+        (self.isect.surface.origin(wi), self.isect.medium_towards(wi, self.medium))
+    }
+}
+
+/// Either.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "lives on the stack of one path")]
+pub(crate) enum Site<'s, const N: usize> {
+    /// In a medium.
+    Medium(MediumSite<'s, N>),
+    /// On a surface.
+    Surface(SurfaceSite<'s, N>),
+}
