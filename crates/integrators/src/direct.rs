@@ -2,7 +2,7 @@
 
 use crate::{
     ember,
-    equiangular::Segment,
+    equiangular::{Division, Segment},
     medium::Inside,
     settings::Settings,
     shadow::{End, Place, Shadow, shadow},
@@ -46,6 +46,8 @@ pub struct Scatterer<'a, 's, S, F, const N: usize> {
     pub eval: F,
     /// Equiangular technique of a medium vertex.
     pub rival: Option<Rival>,
+    /// How the light is divided between this vertex and equiangular samples, where these are no rivals.
+    pub division: Option<Division>,
     /// Where a shadow ray enters another medium; `None` where it stays in that of the path.
     pub surface: Option<&'a SurfacePoint>,
     /// The medium that the path is in.
@@ -116,5 +118,9 @@ where
     if let (Some(rival), Some(target)) = (&vertex.rival, &sample.target) {
         r += weight.r_e * s.r_l * rival.density(scene, selected.id, target);
     }
-    divide(weight.beta * f * s.t * sample.l, r)
+    let mut l = sample.l;
+    if let (Some(division), Some(target)) = (&vertex.division, &sample.target) {
+        l *= division.of_flights(light, (target.p - vertex.p).length());
+    }
+    divide(weight.beta * f * s.t * l, r)
 }

@@ -70,6 +70,13 @@ impl Segment {
         Some(Self { o: ray.o, d: ray.d, t_max, sigma_t, albedo, mode, clip: settings.cone_clipping })
     }
 
+    /// The same for all lights, whether or not the technique pays.
+    #[inline(always)]
+    #[must_use]
+    pub fn always(self) -> Self {
+        Self { mode: Equiangular::Always, ..self }
+    }
+
     /// The part of the segment that `light` can light, when seen from the point `y`; `None` when the technique
     /// leaves this pair alone. A function of the segment and `y` only, so that all techniques agree on it.
     #[inline]
@@ -209,6 +216,52 @@ pub struct Origin<'a, 's, const N: usize> {
     pub time: f32,
     /// The hero is drawn anew at the scattering, which makes densities before and after it independent.
     pub anew: bool,
+    /// Where flights are shared, the technique has its part of the light for itself.
+    pub division: Option<Division>,
+}
+
+/// How the light that scatters at a point y towards a path is divided between paths that meet y by a flight and
+/// equiangular samples, where the former are shared by pixels (see [`crate::reuse`]) and densities of all techniques at y
+/// are not to be had: by a function of y and the light point alone,
+///
+/// ```text
+/// part of flights = d / (d + rho),   rho = 1 / (width n sigma_t)
+/// ```
+///
+/// with d the distance of the two points, n the number of pixels, and `width d` the length over which equiangular samples
+/// spread; that is the balance heuristic for a ray that passes the light at the distance d. Flights have all the light of
+/// surfaces: what these send to a point is bounded.
+#[derive(Clone, Copy, Debug)]
+pub struct Division {
+    /// `n sigma_t` \[1/m\]: collisions of the flights of all pixels.
+    collisions: f32,
+}
+
+impl Division {
+    /// In a medium, for the flights of `n` pixels; `None` where equiangular samples are off.
+    #[inline(always)]
+    pub fn new<const N: usize>(
+        scene: &Scene,
+        settings: &Settings,
+        inside: &Inside<'_, N>,
+        n: usize,
+    ) -> Option<Self> {
+        let on = settings.equiangular != Equiangular::Off && settings.light_sampling && scene.lights.has_points();
+        (on && !inside.sigma_s.is_zero()).then(|| Self { collisions: n as f32 * inside.sigma_t.mean() })
+    }
+
+    /// The part of flights at the distance `d` from a point of `light`.
+    #[inline(always)]
+    pub fn of_flights(&self, light: &Light, d: f32) -> f32 {
+        let width = match light {
+            Light::Spot(spot) if spot.cos_end > 0.0 => {
+                2.0 * (1.0 - spot.cos_end * spot.cos_end).max(0.0).sqrt() / spot.cos_end
+            }
+            _ => std::f32::consts::PI,
+        };
+        let x = width.min(std::f32::consts::PI) * self.collisions * d;
+        if light.is_local() && light.is_delta() { x / (x + 1.0) } else { 1.0 }
+    }
 }
 
 /// One sample of the technique on `segment`: the light it adds to the pixel.
@@ -262,6 +315,10 @@ fn connect<const N: usize>(
     if d2 == 0.0 {
         return None;
     }
+    let own = at.division.map_or(1.0, |division| 1.0 - division.of_flights(light, d2.sqrt()));
+    if own <= 0.0 {
+        return None;
+    }
     let wi = to * (1.0 / d2.sqrt());
     let mut l = light.emitted_along(y, -wi, w);
     if light.is_delta() {
@@ -282,6 +339,9 @@ fn connect<const N: usize>(
     )?;
     let phase = inside.phase.eval(-segment.d, wi, w);
     let f = inside.sigma_s * inside.transmittance(t) * phase;
+    if at.division.is_some() {
+        return Some(divide(weight.beta * f * s.t * l * own, weight.r_u * s.r_l * technique));
+    }
     // densities of the three techniques, lane by lane
     let flight = inside.collision_density(t, settings);
     let by_light = scene.lights.pmf_at(x, Vec3::ZERO, id) * light.pdf_li(&scene.accel, x, wi, &y.target);

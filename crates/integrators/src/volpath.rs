@@ -13,7 +13,7 @@ pub(crate) use site::{MediumSite, Site, SurfaceSite};
 
 use crate::{
     direct::Rival,
-    equiangular::{self, Segment},
+    equiangular::{self, Division, Segment},
     glow,
     medium::Inside,
     observer::{Event, PathObserver, Vertex},
@@ -94,8 +94,10 @@ pub(crate) struct Walk<'s, const N: usize> {
     eta_scale: f32,
     /// Some scattering was not specular.
     scattered_widely: bool,
-    /// Equiangular samples are left out on the next segment.
-    pub plain: bool,
+    /// The pixels whose flights share the next segment's light with equiangular samples; 0 where they do not.
+    pub company: usize,
+    /// How the light that the last scattering sent was divided, if it was.
+    divided: Option<Division>,
     /// The hero is drawn anew at the first scattering, so that densities before and after it are apart.
     pub anew: bool,
     /// What the path brought so far.
@@ -143,7 +145,8 @@ impl<'s, const N: usize> Walk<'s, N> {
             crossings: 0,
             eta_scale: 1.0,
             scattered_widely: false,
-            plain: false,
+            company: 0,
+            divided: None,
             anew: false,
             l: Spectrum::ZERO,
         }
@@ -254,13 +257,20 @@ impl<'s, const N: usize> Walk<'s, N> {
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
     ) -> Option<Segment> {
-        if self.plain || self.depth >= self.settings.max_depth {
+        if self.depth >= self.settings.max_depth {
             return None;
         }
         if self.settings.equiangular == Equiangular::Auto && self.depth > self.settings.equiangular_depth {
             return None;
         }
-        let segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;
+        let mut segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;
+        let division = self.division(inside);
+        if self.company > 0 {
+            if division.is_none() {
+                return None;
+            }
+            segment = segment.always();
+        }
         let at = equiangular::Origin {
             medium: self.medium,
             inside,
@@ -269,9 +279,17 @@ impl<'s, const N: usize> Walk<'s, N> {
             order: self.depth + 1,
             time: self.ray.time,
             anew: self.anew,
+            division,
         };
         self.l += equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler, seen);
-        Some(segment)
+        if self.company > 0 { None } else { Some(segment) }
+    }
+
+    /// How the light of this segment is divided, if it is.
+    #[inline(always)]
+    fn division(&self, inside: &Inside<'s, N>) -> Option<Division> {
+        let company = if self.company > 0 { Some(self.company) } else { None };
+        Division::new(self.scene, self.settings, inside, company?)
     }
 
     /// Distance of the collision on this segment, or `None` when the flight gets through.
@@ -361,6 +379,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.flight = 0.0;
         self.weight.r_e = if segment.is_some() { before * to_hero } else { Spectrum::ZERO };
         self.rival = segment.map(|segment| Rival { segment, t });
+        self.divided = self.division(&inside);
         (self.previous, self.facing) = (p, Vec3::ZERO);
         self.scattered_widely = true;
         let steering = Steering::in_medium((self.scene, self.settings), self.lamp, p, &inside, self.w);
@@ -418,6 +437,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         sampler.seek_vertex(self.depth - 1);
         self.weight.r_e = Spectrum::ZERO;
         self.rival = None;
+        self.divided = None;
         (self.previous, self.facing) = (isect.surface.p, isect.surface.ng);
         let n = if wo.z < 0.0 { -frame.z } else { frame.z };
         let steering = Steering::on_surface(

@@ -106,11 +106,11 @@ impl PixelPass {
                 walk.part();
                 if at.may_begin(w) {
                     from = Some((*at, walk.weight.beta));
-                    walk.plain = true;
+                    walk.company = MEMBERS;
                 }
             }
         }
-        walk.plain = false;
+        walk.company = 0;
         Member { pixel, exposure, filter, walk, sampler, site, from, l: Spectrum::ZERO }
     }
 

@@ -29,6 +29,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                 spawn: |_| (at.p, at.medium),
                 eval: |wi| at.eval(wi, self.w),
                 rival: self.rival,
+                division: self.divided,
                 surface: None,
                 known: Place { medium: at.medium, inside: Some(&at.inside), time: self.ray.time },
             };
@@ -65,6 +66,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                 spawn: |wi| at.spawn(wi),
                 eval: |wi| at.eval(wi),
                 rival: None,
+                division: None,
                 surface: Some(&at.isect.surface),
                 known: Place { medium: at.medium, inside: at.inside.as_ref(), time: self.ray.time },
             };

@@ -68,6 +68,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         sampler.seek_vertex(self.depth - 1);
         self.weight.r_e = Spectrum::ZERO;
         self.rival = None;
+        self.divided = None;
         (self.previous, self.facing) = (p, Vec3::ZERO);
         self.scattered_widely = true;
 
@@ -85,6 +86,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     (phase, mixed(steering.as_ref(), phase, wi))
                 },
                 rival: None,
+                division: None,
                 surface: None,
                 known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
             };

@@ -55,6 +55,7 @@ pub struct LightSet {
     lights: Vec<Light>,
     infinite: Vec<LightId>,
     volumes: Vec<(MediumId, LightId)>,
+    has_points: bool,
     all: Option<Choice>,
     local: Option<Choice>,
     /// The tree over the local ones, the choice among the others, and what decides between the two.
@@ -112,7 +113,8 @@ impl LightSet {
         let volumes = lights.iter().enumerate().filter_map(volume).collect();
         let all = Choice::new(&powers, |_| true);
         let local = Choice::new(&powers, |i| lights[i].is_local());
-        Self { lights, infinite, volumes, all, local, spatial: None }
+        let has_points = lights.iter().any(|l| l.is_local() && l.is_delta());
+        Self { lights, infinite, volumes, has_points, all, local, spatial: None }
     }
 
     /// The same lights, chosen by `selection`; `weigh` as for [`Self::new`].
@@ -228,6 +230,12 @@ impl LightSet {
     #[inline(always)]
     pub fn has_local(&self) -> bool {
         self.local.is_some()
+    }
+
+    /// True when some light is a point, so that nothing bounds what it sends to points near it.
+    #[inline(always)]
+    pub fn has_points(&self) -> bool {
+        self.has_points
     }
 
     /// Chooses among lights of finite extent.
