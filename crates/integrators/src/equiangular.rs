@@ -246,7 +246,8 @@ impl Division {
         inside: &Inside<'_, N>,
         n: usize,
     ) -> Option<Self> {
-        let on = settings.equiangular != Equiangular::Off && settings.light_sampling && scene.lights.has_points();
+        let on =
+            settings.equiangular != Equiangular::Off && settings.light_sampling && scene.lights.has_points();
         (on && !inside.sigma_s.is_zero()).then(|| Self { collisions: n as f32 * inside.sigma_t.mean() })
     }
 

@@ -9,6 +9,7 @@ mod scatter;
 mod site;
 mod varying;
 
+pub(crate) use scatter::Audience;
 pub(crate) use site::{MediumSite, Site, SurfaceSite};
 
 use crate::{
@@ -165,7 +166,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         loop {
             if let Some(at) = site {
                 let goes_on = match at {
-                    Site::Medium(at) => self.scatter_medium(at, sampler, seen),
+                    Site::Medium(at) => self.scatter_medium(at, &mut (), sampler, seen),
                     Site::Surface(at) => self.scatter_surface(at, sampler, seen),
                 };
                 if !goes_on {
@@ -448,7 +449,15 @@ impl<'s, const N: usize> Walk<'s, N> {
             bsdf.flags(),
             self.inside.as_ref(),
         );
-        Step::Site(Site::Surface(SurfaceSite { isect, frame, bsdf, wo, medium: self.medium, inside: self.inside, steering }))
+        Step::Site(Site::Surface(SurfaceSite {
+            isect,
+            frame,
+            bsdf,
+            wo,
+            medium: self.medium,
+            inside: self.inside,
+            steering,
+        }))
     }
 
     /// Light that the surface emits towards the path.

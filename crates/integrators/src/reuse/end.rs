@@ -10,15 +10,12 @@ use crate::{
 };
 use tyndall_base::Vec3;
 use tyndall_geometry::SurfacePoint;
-use tyndall_scatter::{
-    bsdf::{Bsdf, BsdfFlags},
-    phase::PhaseFunction,
-};
+use tyndall_scatter::bsdf::{Bsdf, BsdfFlags};
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{Scene, light::Target, sampler::PathSampler};
 
 /// Media whose phase functions are narrower send too little to the points of others.
-const LEAST_OPEN: f32 = 0.3;
+const LEAST_OPEN: f32 = 0.1;
 
 impl<const N: usize> Site<'_, N> {
     /// The point \[m\].
@@ -76,7 +73,8 @@ impl<const N: usize> Site<'_, N> {
     }
 }
 
-/// A second scattering that others may go on from: it sends the same light in all directions on its side.
+/// A second scattering that others may go on from: a point of a medium, or a surface that sends the same light in all
+/// directions on its side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shared<const N: usize> {
     target: Target,
@@ -97,6 +95,8 @@ pub(super) struct Link<const N: usize> {
     pub through: Spectrum<N>,
     /// `p_l(y_k | x_i)`.
     pub density: Spectrum<N>,
+    /// Unit direction from `y_k` to `x_i`.
+    pub wo: Vec3,
 }
 
 impl<const N: usize> Shared<N> {
@@ -105,7 +105,7 @@ impl<const N: usize> Shared<N> {
     pub fn new(walk: &Walk<'_, N>, from: &Site<'_, N>, at: &Site<'_, N>) -> Option<Self> {
         let mut shared = match at {
             Site::Medium(at) => {
-                if !matches!(at.inside.phase, PhaseFunction::Isotropic) {
+                if openness(at.inside.phase, walk.w()) < LEAST_OPEN {
                     return None;
                 }
                 let (density, scattering) = (at.inside.sigma_t, at.inside.sigma_s);
@@ -147,7 +147,8 @@ impl<const N: usize> Shared<N> {
     /// The point as its own path reached it.
     #[inline(always)]
     pub fn own_link(&self, walk: &Walk<'_, N>) -> Link<N> {
-        Link { through: walk.weight.beta * self.own, density: walk.weight.r_u * self.own }
+        let (through, density) = (walk.weight.beta * self.own, walk.weight.r_u * self.own);
+        Link { through, density, wo: -walk.ray.d }
     }
 
     /// The point as reached from `from`, at which the throughput is `beta`; `None` where it is not seen from there.
@@ -172,6 +173,7 @@ impl<const N: usize> Shared<N> {
         Some(Link {
             through: beta * f * passed.t * self.scattering * geometry,
             density: pdf * passed.r_u * self.density * geometry,
+            wo: -wi,
         })
     }
 }

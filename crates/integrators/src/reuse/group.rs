@@ -1,6 +1,6 @@
 //! The paths of one square of pixels that share their number.
 
-use super::{MEMBERS, SIDE, end::{Link, Shared}};
+use super::{MEMBERS, SIDE, company::Company, end::Shared};
 use crate::{
     glow,
     pixel::{Begin, PixelPass},
@@ -8,6 +8,7 @@ use crate::{
     weight::{PathWeight, divide},
 };
 use tyndall_film::{Guide, Patch, PixelBounds, WorkUnit};
+use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::sampler::PathSampler;
 
@@ -52,8 +53,7 @@ impl PixelPass {
         out: &mut Patch,
     ) {
         let (gx, gy) = (square.x0, square.y0);
-        let group =
-            PathSampler::of_group(self.settings.sampler, self.seed, gx, gy, sample, self.replicates);
+        let group = PathSampler::of_group(self.settings.sampler, self.seed, gx, gy, sample, self.replicates);
         let mut common = group.clone();
         let (u, time) = (common.next_1d(), common.next_1d());
         let w = self.wavelengths.sample::<N>(u);
@@ -118,47 +118,69 @@ impl PixelPass {
     #[inline(always)]
     fn go_on<'s, const N: usize>(&self, members: &mut Members<'s, N>, k: usize, w: &Wavelengths<N>) {
         let Some(mut member) = members[k].take() else { return };
-        let mut links = [Spectrum::ZERO; MEMBERS];
-        let mut through = Spectrum::ZERO;
-        let shared = match (&member.site, &member.from) {
-            (Some(at), Some((from, _))) => Shared::new(&member.walk, from, at),
+        let company = self.company(members, k, &mut member, w);
+        let Member { walk, site, sampler, l: gets, .. } = &mut member;
+        let Some((mut company, own)) = company else {
+            if site.is_some() {
+                walk.follow(site, u32::MAX, sampler, &mut ());
+            }
+            *gets += walk.l;
+            members[k] = Some(member);
+            return;
+        };
+        let before = walk.restart(company.through * own, company.density * own);
+        // a phase function sends each member another part of what scatters
+        let sends = match site {
+            Some(Site::Medium(at)) if !matches!(at.inside.phase, PhaseFunction::Isotropic) => Some(*at),
             _ => None,
         };
-        if let Some(shared) = &shared {
-            let mut density = Spectrum::ZERO;
-            for i in 0..MEMBERS {
-                let link = if i == k {
-                    Some(shared.own_link(&member.walk))
-                } else if let Some(Member { from: Some((from, beta)), .. }) = &members[i] {
-                    shared.link((&self.scene, &self.settings), from, *beta, w, &mut member.sampler)
-                } else {
-                    None
-                };
-                if let Some(Link { through: t, density: d }) = link {
-                    links[i] = t;
-                    through += t;
-                    density += d;
-                }
+        let goes_on = match &sends {
+            Some(at) => {
+                *site = None;
+                walk.scatter_medium(at, &mut company, sampler, &mut ())
             }
-            let own = 1.0 / shared.own;
-            member.l += member.walk.restart(through * own, density * own);
+            None => true,
+        };
+        if goes_on {
+            walk.follow(site, u32::MAX, sampler, &mut ());
         }
-        if member.site.is_some() {
-            member.walk.follow(&mut member.site, u32::MAX, &mut member.sampler, &mut ());
-        }
-        let l = member.walk.l;
-        if shared.is_none() {
-            member.l += l;
-        }
+        let l = walk.l;
+        *gets += before;
         members[k] = Some(member);
-        if shared.is_some() && !l.is_zero() {
-            let l = l.safe_div(through);
-            for (i, member) in members.iter_mut().enumerate() {
-                if let Some(member) = member {
-                    member.l += l * links[i];
+        let give = |i: usize, part| {
+            if let Some(member) = &mut members[i] {
+                member.l += part;
+            }
+        };
+        match &sends {
+            Some(at) => company.deal_from(at, l, w, give),
+            None => company.deal(l, give),
+        }
+    }
+
+    /// Who shares what path `k`, `member`, goes on from, and one over the density of that point as drawn.
+    #[inline(always)]
+    fn company<'s, const N: usize>(
+        &self,
+        members: &Members<'s, N>,
+        k: usize,
+        member: &mut Member<'s, N>,
+        w: &Wavelengths<N>,
+    ) -> Option<(Company<N>, f32)> {
+        let (Some(at), Some((from, _))) = (&member.site, &member.from) else { return None };
+        let shared = Shared::new(&member.walk, from, at)?;
+        let mut company = Company::empty();
+        for i in 0..MEMBERS {
+            if i == k {
+                company.join(i, shared.own_link(&member.walk));
+            } else if let Some(Member { from: Some((from, beta)), .. }) = &members[i] {
+                let link = shared.link((&self.scene, &self.settings), from, *beta, w, &mut member.sampler);
+                if let Some(link) = link {
+                    company.join(i, link);
                 }
             }
         }
+        Some((company, 1.0 / shared.own))
     }
 }
 

@@ -17,6 +17,7 @@
 //! itself ([`crate::volpath::Walk::pilot`]), so that where the points lie does not depend on the hero of what follows;
 //! then the weights sum to one for every hero. Pixels of a group have errors in common: [`SIDE`] says which.
 
+mod company;
 mod end;
 mod group;
 
@@ -41,7 +42,12 @@ impl PixelPass {
 
 /// Densities of flights must be known in closed form, and must not depend on the path before.
 fn allowed(s: &Settings) -> bool {
-    s.reuse && s.exact_transmittance && s.survival && !s.regularize && s.roulette_depth >= 1 && s.max_depth >= 2
+    s.reuse
+        && s.exact_transmittance
+        && s.survival
+        && !s.regularize
+        && s.roulette_depth >= 1
+        && s.max_depth >= 2
 }
 
 /// So must those of passing between two points.

@@ -7,33 +7,81 @@ use crate::{
     shadow::Place,
     steer::mixed,
 };
+use std::cell::Cell;
 use tyndall_base::{Vec3, warp};
 use tyndall_geometry::Ray;
 use tyndall_scatter::bsdf::BsdfFlags;
-use tyndall_spectral::Spectrum;
+use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{MediumId, sampler::PathSampler};
+
+/// Whom a scattering in a medium sends light to: the path alone, `()`, or several that come from different directions.
+pub(crate) trait Audience<const N: usize> {
+    /// `(phase function, density)` \[1/sr\] of going on towards `wi`, per lane.
+    fn eval(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>);
+
+    /// The same where `wi` was drawn for the path alone, with its phase function known.
+    fn drawn(
+        &mut self,
+        at: &MediumSite<'_, N>,
+        wi: Vec3,
+        phase: Spectrum<N>,
+        w: &Wavelengths<N>,
+    ) -> (Spectrum<N>, Spectrum<N>);
+
+    /// Light sampling brought `value` from `wi`; returns what of it belongs to the path.
+    fn lit(&mut self, wi: Vec3, value: Spectrum<N>) -> Spectrum<N>;
+}
+
+impl<const N: usize> Audience<N> for () {
+    #[inline(always)]
+    fn eval(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+        at.eval(wi, w)
+    }
+
+    #[inline(always)]
+    fn drawn(
+        &mut self,
+        at: &MediumSite<'_, N>,
+        wi: Vec3,
+        phase: Spectrum<N>,
+        _: &Wavelengths<N>,
+    ) -> (Spectrum<N>, Spectrum<N>) {
+        (phase, mixed(at.steering.as_ref(), phase, wi))
+    }
+
+    #[inline(always)]
+    fn lit(&mut self, _: Vec3, value: Spectrum<N>) -> Spectrum<N> {
+        value
+    }
+}
 
 impl<'s, const N: usize> Walk<'s, N> {
     /// Scatters in a medium; false when the path ends.
     #[inline(always)]
-    pub(super) fn scatter_medium(
+    pub(crate) fn scatter_medium(
         &mut self,
         at: &MediumSite<'s, N>,
+        audience: &mut impl Audience<N>,
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
     ) -> bool {
         if self.settings.light_sampling {
+            let towards = Cell::new(Vec3::ZERO);
             let vertex = Scatterer {
                 p: at.p,
                 n: Vec3::ZERO,
                 spawn: |_| (at.p, at.medium),
-                eval: |wi| at.eval(wi, self.w),
+                eval: |wi| {
+                    towards.set(wi);
+                    audience.eval(at, wi, self.w)
+                },
                 rival: self.rival,
                 division: self.divided,
                 surface: None,
                 known: Place { medium: at.medium, inside: Some(&at.inside), time: self.ray.time },
             };
-            self.direct(&vertex, sampler, seen);
+            let value = self.direct(&vertex, sampler, seen);
+            self.l += audience.lit(towards.get(), value);
         }
         sampler.join();
         let u = sampler.next_2d();
@@ -44,7 +92,8 @@ impl<'s, const N: usize> Walk<'s, N> {
             let s = at.inside.phase.sample(at.wo, u, self.w);
             (s.wi, s.p)
         };
-        if !self.weight.scatter(phase, mixed(at.steering.as_ref(), phase, wi), false) {
+        let (phase, pdf) = audience.drawn(at, wi, phase, self.w);
+        if !self.weight.scatter(phase, pdf, false) {
             return false;
         }
         self.ray = Ray { time: self.ray.time, ..Ray::new(at.p, wi) };
@@ -70,7 +119,8 @@ impl<'s, const N: usize> Walk<'s, N> {
                 surface: Some(&at.isect.surface),
                 known: Place { medium: at.medium, inside: at.inside.as_ref(), time: self.ray.time },
             };
-            self.direct(&vertex, sampler, seen);
+            let value = self.direct(&vertex, sampler, seen);
+            self.l += value;
         }
         sampler.join();
         let uc = sampler.next_1d();
@@ -99,20 +149,21 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.survives(sampler)
     }
 
-    /// Light sampling at a vertex.
+    /// What light sampling brings at a vertex.
     #[inline(always)]
     pub(super) fn direct<S, F>(
         &mut self,
         vertex: &Scatterer<'_, '_, S, F, N>,
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
-    ) where
+    ) -> Spectrum<N>
+    where
         S: Fn(Vec3) -> (Vec3, MediumId),
         F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
     {
         let value = direct::sample(self.scene, self.settings, vertex, &self.weight, self.w, sampler);
         seen.contribution(self.depth, &value);
-        self.l += value;
+        value
     }
 
     /// Russian roulette on the throughput the lanes agree on, and the next flight.

@@ -90,7 +90,8 @@ impl<'s, const N: usize> Walk<'s, N> {
                 surface: None,
                 known: Place { medium, inside: inside.as_ref(), time: self.ray.time },
             };
-            self.direct(&vertex, sampler, seen);
+            let value = self.direct(&vertex, sampler, seen);
+            self.l += value;
         }
         let uc = sampler.next_1d();
         let u = sampler.next_2d();

@@ -1,0 +1,119 @@
+//! All who share what scatters at one point: how much of it each gets.
+
+use super::{MEMBERS, end::Link};
+use crate::{
+    steer::mixed,
+    volpath::{Audience, MediumSite},
+};
+use tyndall_base::Vec3;
+use tyndall_spectral::{Spectrum, Wavelengths};
+
+/// The links of one shared point.
+pub(super) struct Company<const N: usize> {
+    links: [Option<Link<N>>; MEMBERS],
+    /// Sums over all links.
+    pub through: Spectrum<N>,
+    pub density: Spectrum<N>,
+    /// Light that was sampled at the point, and where from.
+    lit: (Vec3, Spectrum<N>),
+    /// Where the path went on to.
+    leaves: Vec3,
+}
+
+impl<const N: usize> Company<N> {
+    /// Nobody.
+    #[inline(always)]
+    pub fn empty() -> Self {
+        let zero = Spectrum::ZERO;
+        Self {
+            links: [None; MEMBERS],
+            through: zero,
+            density: zero,
+            lit: (Vec3::ZERO, zero),
+            leaves: Vec3::ZERO,
+        }
+    }
+
+    /// Member `i` reaches the point by `link`.
+    #[inline(always)]
+    pub fn join(&mut self, i: usize, link: Link<N>) {
+        self.through += link.through;
+        self.density += link.density;
+        self.links[i] = Some(link);
+    }
+
+    /// Parts of `l` for the members that `give` says, by what reaches each.
+    #[inline(always)]
+    pub fn deal(&self, l: Spectrum<N>, mut give: impl FnMut(usize, Spectrum<N>)) {
+        let l = l.safe_div(self.through);
+        for i in 0..MEMBERS {
+            if let Some(link) = &self.links[i] {
+                give(i, l * link.through);
+            }
+        }
+    }
+
+    /// The same where `at` scatters by a phase function that is not the same for all: `l` came by the direction that the
+    /// path took, sampled light by its own.
+    #[inline(always)]
+    pub fn deal_from(
+        &self,
+        at: &MediumSite<'_, N>,
+        l: Spectrum<N>,
+        w: &Wavelengths<N>,
+        mut give: impl FnMut(usize, Spectrum<N>),
+    ) {
+        for (l, wi) in [(l, self.leaves), (self.lit.1, self.lit.0)] {
+            if l.is_zero() {
+                continue;
+            }
+            let (all, _) = self.sums(at, wi, w);
+            let l = l.safe_div(all);
+            for i in 0..MEMBERS {
+                if let Some(link) = &self.links[i] {
+                    give(i, l * link.through * at.inside.phase.eval(link.wo, wi, w));
+                }
+            }
+        }
+    }
+
+    /// Sums over all links of what goes on to `wi`, and of its density.
+    #[inline(always)]
+    fn sums(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+        let (mut through, mut density) = (Spectrum::ZERO, Spectrum::ZERO);
+        for i in 0..MEMBERS {
+            if let Some(link) = &self.links[i] {
+                let phase = at.inside.phase.eval(link.wo, wi, w);
+                through += link.through * phase;
+                density += link.density * mixed(at.steering.as_ref(), phase, wi);
+            }
+        }
+        (through, density)
+    }
+}
+
+impl<const N: usize> Audience<N> for Company<N> {
+    #[inline(always)]
+    fn eval(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+        let (through, density) = self.sums(at, wi, w);
+        (through.safe_div(self.through), density.safe_div(self.density))
+    }
+
+    #[inline(always)]
+    fn drawn(
+        &mut self,
+        at: &MediumSite<'_, N>,
+        wi: Vec3,
+        _: Spectrum<N>,
+        w: &Wavelengths<N>,
+    ) -> (Spectrum<N>, Spectrum<N>) {
+        self.leaves = wi;
+        self.eval(at, wi, w)
+    }
+
+    #[inline(always)]
+    fn lit(&mut self, wi: Vec3, value: Spectrum<N>) -> Spectrum<N> {
+        self.lit = (wi, value);
+        Spectrum::ZERO
+    }
+}
