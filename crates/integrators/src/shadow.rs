@@ -19,6 +19,14 @@ pub struct Shadow<const N: usize> {
     pub end: MediumId,
 }
 
+impl<const N: usize> Shadow<N> {
+    /// Nothing between two points of a medium.
+    #[inline(always)]
+    pub fn open(end: MediumId) -> Self {
+        Self { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE, end }
+    }
+}
+
 /// The medium that a shadow ray starts in, with its coefficients, which the path knows already.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a, 's, const N: usize> {
@@ -50,16 +58,32 @@ pub fn shadow<const N: usize>(
     w: &Wavelengths<N>,
     sampler: &mut PathSampler,
 ) -> Option<Shadow<N>> {
-    let mut s = Shadow { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE, end: start.medium };
     // one query decides whether anything blocks the whole way; boundaries are looked for only where there are some
-    let Some(mut ray) = towards(o, &end, start.time) else { return Some(s) };
+    let Some(ray) = towards(o, &end, start.time) else { return Some(Shadow::open(start.medium)) };
     let obstacles = scene.obstacles(&ray);
     if obstacles.blocked {
         return None;
     }
+    past(scene, settings, ray, obstacles.boundary, start, end, w, sampler)
+}
+
+/// The same along a ray to `end` that nothing blocks; `boundary`: whether it crosses one.
+#[expect(clippy::too_many_arguments, reason = "the state of a path and of a ray")]
+#[inline(always)]
+pub fn past<const N: usize>(
+    scene: &Scene,
+    settings: &Settings,
+    mut ray: Ray,
+    boundary: bool,
+    start: Place<'_, '_, N>,
+    end: End,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+) -> Option<Shadow<N>> {
+    let mut s = Shadow::open(start.medium);
     let mut inside = start.inside.copied();
     loop {
-        let hit = if obstacles.boundary { scene.next_boundary(&ray) } else { None };
+        let hit = if boundary { scene.next_boundary(&ray) } else { None };
         let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
         if let Some(inside) = &inside {
             match inside.varying {

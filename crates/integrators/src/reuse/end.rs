@@ -4,12 +4,12 @@ use crate::{
     glow::openness,
     medium::Inside,
     settings::Settings,
-    shadow::{End, Place, Shadow, shadow},
+    shadow::{End, Place, Shadow, past},
     volpath::{Site, Walk},
     weight::exp,
 };
 use tyndall_base::Vec3;
-use tyndall_geometry::SurfacePoint;
+use tyndall_geometry::{Ray, SurfacePoint};
 use tyndall_scatter::bsdf::{Bsdf, BsdfFlags};
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{Scene, light::Target, sampler::PathSampler};
@@ -45,31 +45,41 @@ impl<const N: usize> Site<'_, N> {
         }
     }
 
-    /// What lies between this point and `target`, which is in the direction `wi`.
+    /// Where a ray towards `wi` starts.
+    #[inline(always)]
+    fn spawn(&self, wi: Vec3) -> Vec3 {
+        match self {
+            Self::Medium(at) => at.p,
+            Self::Surface(at) => at.spawn(wi).0,
+        }
+    }
+
+    /// What is left of light along `ray`, which nothing blocks, to `target`; `boundary`: whether it crosses one.
     #[inline(always)]
     fn sees(
         &self,
-        scene: &Scene,
-        settings: &Settings,
-        wi: Vec3,
-        (target, time): (Target, f32),
+        (scene, settings): (&Scene, &Settings),
+        ray: Ray,
+        boundary: bool,
+        target: Target,
         w: &Wavelengths<N>,
         sampler: &mut PathSampler,
     ) -> Option<Shadow<N>> {
         let entered;
-        let (o, medium, inside) = match self {
-            Self::Medium(at) => (at.p, at.medium, Some(&at.inside)),
+        let (medium, inside) = match self {
+            Self::Medium(at) => (at.medium, Some(&at.inside)),
             Self::Surface(at) => {
-                let (o, medium) = at.spawn(wi);
+                let medium = at.isect.medium_towards(ray.d, at.medium);
                 if medium == at.medium {
-                    (o, medium, at.inside.as_ref())
+                    (medium, at.inside.as_ref())
                 } else {
                     entered = Inside::entered(scene, medium, Some(&at.isect.surface), w);
-                    (o, medium, entered.as_ref())
+                    (medium, entered.as_ref())
                 }
             }
         };
-        shadow(scene, settings, o, Place { medium, inside, time }, End::At(target), w, sampler)
+        let place = Place { medium, inside, time: ray.time };
+        past(scene, settings, ray, boundary, place, End::At(target), w, sampler)
     }
 }
 
@@ -151,16 +161,9 @@ impl<const N: usize> Shared<N> {
         Link { through, density, wo: -walk.ray.d }
     }
 
-    /// The point as reached from `from`, at which the throughput is `beta`; `None` where it is not seen from there.
+    /// The point as aimed at from `from`; `None` where that scatters nothing to it.
     #[inline(always)]
-    pub fn link(
-        &self,
-        (scene, settings): (&Scene, &Settings),
-        from: &Site<'_, N>,
-        beta: Spectrum<N>,
-        w: &Wavelengths<N>,
-        sampler: &mut PathSampler,
-    ) -> Option<Link<N>> {
+    pub fn aim(&self, from: &Site<'_, N>, w: &Wavelengths<N>) -> Option<Aim<N>> {
         let to = self.target.p - from.p();
         let r2 = to.length_squared();
         let wi = to * (1.0 / r2.sqrt());
@@ -169,11 +172,38 @@ impl<const N: usize> Shared<N> {
         if pdf.is_zero() {
             return None;
         }
-        let passed = from.sees(scene, settings, wi, (self.target, self.time), w, sampler)?;
+        let ray = self.target.ray_from(from.spawn(wi), self.time)?;
+        Some(Aim { ray, wi, f: f * geometry, pdf: pdf * geometry })
+    }
+
+    /// The point as reached from `from`, at which the throughput is `beta`, where nothing blocks the aim; `boundary`:
+    /// whether something without material lies between.
+    #[inline(always)]
+    pub fn link(
+        &self,
+        (scene, settings): (&Scene, &Settings),
+        (from, beta): (&Site<'_, N>, Spectrum<N>),
+        aim: &Aim<N>,
+        boundary: bool,
+        w: &Wavelengths<N>,
+        sampler: &mut PathSampler,
+    ) -> Option<Link<N>> {
+        let passed = from.sees((scene, settings), aim.ray, boundary, self.target, w, sampler)?;
         Some(Link {
-            through: beta * f * passed.t * self.scattering * geometry,
-            density: pdf * passed.r_u * self.density * geometry,
-            wo: -wi,
+            through: beta * aim.f * passed.t * self.scattering,
+            density: aim.pdf * passed.r_u * self.density,
+            wo: -aim.wi,
         })
     }
+}
+
+/// A shared point as aimed at from another path's first scattering.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Aim<const N: usize> {
+    /// Ends just short of the point.
+    pub ray: Ray,
+    wi: Vec3,
+    /// What scatters towards the point, and the density of its direction, both per volume or area there.
+    f: Spectrum<N>,
+    pdf: Spectrum<N>,
 }

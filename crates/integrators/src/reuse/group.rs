@@ -27,6 +27,9 @@ struct Member<'s, const N: usize> {
     l: Spectrum<N>,
 }
 
+/// Fills what no ray fills.
+const NOWHERE: Ray = Ray { o: Vec3::ZERO, d: Vec3::Z, t_max: 0.0, time: 0.0 };
+
 /// Room for the paths of a square.
 type Members<'s, const N: usize> = [Option<Member<'s, N>>; MEMBERS];
 
@@ -169,13 +172,30 @@ impl PixelPass {
     ) -> Option<(Company<N>, f32)> {
         let (Some(at), Some((from, _))) = (&member.site, &member.from) else { return None };
         let shared = Shared::new(&member.walk, from, at)?;
-        let mut company = Company::empty();
+        let scene = (&*self.scene, &self.settings);
+        // one query for all rays to the point
+        let (mut aims, mut fan, mut n) = ([const { None }; MEMBERS], [NOWHERE; MEMBERS], 0);
+        for i in 0..MEMBERS {
+            if let Some(Member { from: Some((from, _)), .. }) = &members[i]
+                && let Some(aim) = shared.aim(from, w)
+            {
+                fan[n] = aim.ray;
+                n += 1;
+                aims[i] = Some(aim);
+            }
+        }
+        let obstacles = self.scene.obstacles_fan(&fan[..n]);
+        let (mut company, mut n) = (Company::empty(), 0);
         for i in 0..MEMBERS {
             if i == k {
                 company.join(i, shared.own_link(&member.walk));
-            } else if let Some(Member { from: Some((from, beta)), .. }) = &members[i] {
-                let link = shared.link((&self.scene, &self.settings), from, *beta, w, &mut member.sampler);
-                if let Some(link) = link {
+            } else if let (Some(aim), Some(Member { from: Some((from, beta)), .. })) = (&aims[i], &members[i]) {
+                let Obstacles { blocked, boundary } = obstacles.of(n);
+                n += 1;
+                if blocked {
+                    continue;
+                }
+                if let Some(link) = shared.link(scene, (from, *beta), aim, boundary, w, &mut member.sampler) {
                     company.join(i, link);
                 }
             }
