@@ -34,6 +34,7 @@ macro_rules! lanes {
 impl Lanes for Avx2 {
     type F8 = __m256;
     type F4 = __m128;
+    type D4 = __m256d;
 
     lanes! {
         splat8(x: f32) -> __m256 { _mm256_set1_ps(x) }
@@ -44,6 +45,26 @@ impl Lanes for Avx2 {
         min8(a: __m256, b: __m256) -> __m256 { _mm256_min_ps(a, b) }
         max8(a: __m256, b: __m256) -> __m256 { _mm256_max_ps(a, b) }
         le8(a: __m256, b: __m256) -> u32 { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
+        add8(a: __m256, b: __m256) -> __m256 { _mm256_add_ps(a, b) }
+        div8(a: __m256, b: __m256) -> __m256 { _mm256_div_ps(a, b) }
+        abs8(a: __m256) -> __m256 { _mm256_andnot_ps(_mm256_set1_ps(-0.0), a) }
+        copysign8(a: __m256, b: __m256) -> __m256 { {
+            let sign = _mm256_set1_ps(-0.0);
+            _mm256_or_ps(_mm256_andnot_ps(sign, a), _mm256_and_ps(sign, b))
+        } }
+        fnmadd8(a: __m256, b: __m256, c: __m256) -> __m256 { _mm256_fnmadd_ps(a, b, c) }
+        blend8(sign: __m256, a: __m256, b: __m256) -> __m256 { _mm256_blendv_ps(a, b, sign) }
+        signs8(a: __m256) -> u32 { _mm256_movemask_ps(a) as u32 }
+        range8(a: __m256) -> (f32, f32) { {
+            let (p, q) = (_mm256_castps256_ps128(a), _mm256_extractf128_ps::<1>(a));
+            let (lo, hi) = (_mm_min_ps(p, q), _mm_max_ps(p, q));
+            let (lo, hi) = (_mm_min_ps(lo, _mm_movehl_ps(lo, lo)), _mm_max_ps(hi, _mm_movehl_ps(hi, hi)));
+            let (lo, hi) = (_mm_min_ss(lo, _mm_movehdup_ps(lo)), _mm_max_ss(hi, _mm_movehdup_ps(hi)));
+            (_mm_cvtss_f32(lo), _mm_cvtss_f32(hi))
+        } }
+        half8(a: __m256, high: bool) -> __m128 {
+            if high { _mm256_extractf128_ps::<1>(a) } else { _mm256_castps256_ps128(a) }
+        }
         splat4(x: f32) -> __m128 { _mm_set1_ps(x) }
         load4(x: &[f32; 4]) -> __m128 { _mm_loadu_ps(x.as_ptr()) }
         store4(x: __m128) -> [f32; 4] { std::mem::transmute::<__m128, [f32; 4]>(x) }
@@ -54,6 +75,15 @@ impl Lanes for Avx2 {
         max4(a: __m128, b: __m128) -> __m128 { _mm_max_ps(a, b) }
         fnmadd4(a: __m128, b: __m128, c: __m128) -> __m128 { _mm_fnmadd_ps(a, b, c) }
         le4(a: __m128, b: __m128) -> u32 { _mm_movemask_ps(_mm_cmple_ps(a, b)) as u32 }
+        splat4d(x: f64) -> __m256d { _mm256_set1_pd(x) }
+        widen4(a: __m128) -> __m256d { _mm256_cvtps_pd(a) }
+        add4d(a: __m256d, b: __m256d) -> __m256d { _mm256_add_pd(a, b) }
+        sub4d(a: __m256d, b: __m256d) -> __m256d { _mm256_sub_pd(a, b) }
+        mul4d(a: __m256d, b: __m256d) -> __m256d { _mm256_mul_pd(a, b) }
+        div4d(a: __m256d, b: __m256d) -> __m256d { _mm256_div_pd(a, b) }
+        abs4d(a: __m256d) -> __m256d { _mm256_andnot_pd(_mm256_set1_pd(-0.0), a) }
+        le4d(a: __m256d, b: __m256d) -> u32 { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(a, b)) as u32 }
+        lt4d(a: __m256d, b: __m256d) -> u32 { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) as u32 }
     }
 
     #[inline(always)]

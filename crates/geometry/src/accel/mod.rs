@@ -6,7 +6,9 @@
 
 mod bins;
 mod build;
+mod bundle;
 mod collect;
+mod fan;
 mod lanes;
 #[cfg(target_arch = "x86_64")]
 mod lanes_avx2;
@@ -15,6 +17,8 @@ mod query;
 mod store;
 mod traverse;
 mod triangle;
+
+pub use fan::Fan;
 
 use crate::error::GeometryError;
 use crate::shape::{LocalSurface, MASK_ALL, ShapeGroup};

@@ -22,7 +22,7 @@ pub(crate) struct LocalRay {
 
 impl LocalRay {
     #[inline(always)]
-    fn new(ray: &Ray) -> Self {
+    pub fn new(ray: &Ray) -> Self {
         Self { o: ray.o.to_array(), d: ray.d.to_array(), o64: ray.o.into(), d64: ray.d.into() }
     }
 
@@ -51,7 +51,7 @@ pub(crate) struct Query<'a, F> {
 
 impl<'a, F: FnMut(&Hit) -> bool> Query<'a, F> {
     #[inline(always)]
-    fn new(accel: &'a Accel, ray: &Ray, mask: u8, filter: F) -> Self {
+    pub fn new(accel: &'a Accel, ray: &Ray, mask: u8, filter: F) -> Self {
         let t_max = ray.t_max;
         let bit = mask.is_power_of_two().then_some(mask.trailing_zeros() as usize);
         Self {

@@ -59,14 +59,14 @@ impl<L: Lanes> Slabs<L> {
 /// Children yet to visit, nearest on top: entry distance in the high half (non-negative floats order like their bits).
 ///
 /// It borrows its room: a room within, beside the constant length, would be cleared for every ray.
-struct Stack<'a> {
-    entries: &'a mut MaybeUninit<[u64; STACK]>,
-    len: usize,
+pub(super) struct Stack<'a> {
+    pub entries: &'a mut MaybeUninit<[u64; STACK]>,
+    pub len: usize,
 }
 
 impl Stack<'_> {
     #[inline(always)]
-    fn push(&mut self, key: u64) {
+    pub fn push(&mut self, key: u64) {
         debug_assert!(self.len < STACK);
         // SAFETY: an inner node leaves at most WIDTH - 1 entries behind and the builder admits at most MAX_DEPTH
         // levels, so there are never more than STACK.
@@ -75,7 +75,7 @@ impl Stack<'_> {
     }
 
     #[inline(always)]
-    fn pop(&mut self) -> Option<u64> {
+    pub fn pop(&mut self) -> Option<u64> {
         if self.len == 0 {
             return None;
         }
@@ -86,7 +86,7 @@ impl Stack<'_> {
 
     /// Sorts the entries from `low` on, farthest first.
     #[inline(always)]
-    fn sort_from(&mut self, low: usize) {
+    pub fn sort_from(&mut self, low: usize) {
         // SAFETY: as for `pop`: everything below `len` has been written.
         let top: &mut [u64] = unsafe {
             std::slice::from_raw_parts_mut(self.entries.as_mut_ptr().cast::<u64>().add(low), self.len - low)
@@ -216,7 +216,7 @@ fn descend<L: Lanes, const ANY: bool>(
 
 /// Asks for the child's cache lines: four of a node, three of a block.
 #[inline(always)]
-fn prefetch<L: Lanes>(l: L, nodes: &[Node], blocks: &[Block], child: Child) {
+pub(super) fn prefetch<L: Lanes>(l: L, nodes: &[Node], blocks: &[Block], child: Child) {
     let (start, lines) = if child.is_leaf() {
         (blocks.as_ptr().wrapping_add(child.range().0).cast::<[u8; 64]>(), 3)
     } else {

@@ -18,6 +18,9 @@ use super::traverse::SLACK;
 use crate::Hit;
 use crate::dvec::{DVec3, dvec3};
 
+/// The axes that play x, y and z, by the one that plays z.
+pub(super) const AXES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
 /// The ray as the edge test wants it: its longest axis is z, and a shear lays it along that axis.
 pub(super) struct Shear<L: Lanes> {
     /// The axes that play x, y and z.
@@ -38,7 +41,7 @@ impl<L: Lanes> Shear<L> {
         } else {
             2
         };
-        let axis = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][long];
+        let axis = AXES[long];
         let along = ray.d[axis[2]];
         let slope = |k: usize| l.splat4(ray.d[axis[k]] / along);
         let o = |k: usize| l.splat4(ray.o[axis[k]]);
@@ -112,7 +115,7 @@ pub(super) fn triangles<L: Lanes, const ANY: bool, F: FnMut(&Hit) -> bool>(
 
 /// The distance to lane `i`'s plane in `f64`; `None` where that is not in front.
 #[inline(always)]
-fn distance(block: &Block, i: usize, ray: &LocalRay) -> Option<f64> {
+pub(super) fn distance(block: &Block, i: usize, ray: &LocalRay) -> Option<f64> {
     let corner = |k: usize| {
         let x = |j: usize| f64::from(block.corner[k][j][i]);
         dvec3(x(0), x(1), x(2))

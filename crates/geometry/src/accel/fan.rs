@@ -1,0 +1,257 @@
+//! A fan: up to sixteen rays, about to one point, that ask together whether anything is in their way.
+//!
+//! One walk for all. Boxes of the tree are tested against the shaft around the rays; at a leaf each ray tests the leaf's
+//! box, then those that enter it test its triangles side by side. A ray alone visits exactly the leaves whose box it enters
+//! (boxes lie within their parents', rounding is monotone, and the shaft enters whatever a ray enters), and all tests
+//! are the same operations, so each answer is that of the ray's own query, to the last bit.
+
+use super::bundle::{GROUP, Group, Shaft};
+use super::lanes::Portable;
+#[cfg(target_arch = "x86_64")]
+use super::lanes_avx2::Avx2;
+use super::node::{Block, Bvh, Child, Node};
+use super::query::{Kernel, LocalRay, Query, any, others};
+use super::traverse::{Stack, WORLD, prefetch};
+use super::{Accel, Isa};
+use crate::{Hit, Ray};
+use std::mem::MaybeUninit;
+use std::ops::Range;
+
+/// What lies on the rays of a fan; bit i is for ray i.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Fan {
+    /// Rays on which a primitive lies that blocks.
+    pub blocked: u16,
+    /// Rays on which one lies that was to be noted; complete only for rays that are not blocked.
+    pub noted: u16,
+}
+
+/// Most rays of a fan.
+const MOST: usize = 2 * GROUP;
+/// Fewer rays go alone.
+const LEAST: usize = 3;
+
+impl Accel {
+    /// For each of up to 16 rays of one time: whether a group whose mask shares a bit with `mask_blocking` lies on it, as
+    /// [`Accel::occluded_masked`] tells, and whether one with a bit of `mask_noted` does. It is much faster than single
+    /// queries where the rays are near each other along their whole way, and their ends are finite.
+    ///
+    /// # Panics
+    /// With more than 16 rays.
+    #[inline]
+    pub fn occluded_fan(&self, rays: &[Ray], mask_blocking: u8, mask_noted: u8) -> Fan {
+        assert!(rays.len() <= MOST, "a fan has at most {MOST} rays, not {}", rays.len());
+        let ask = Ask { accel: self, rays, blocking: mask_blocking, noted: mask_noted };
+        let mut fan = Fan::default();
+        let open = if rays.len() < LEAST {
+            (1 << rays.len()) - 1
+        } else {
+            match self.isa {
+                Isa::Portable => walk_portable(&ask, &mut fan),
+                #[cfg(target_arch = "x86_64")]
+                // SAFETY: the value exists only where the processor has these instructions.
+                Isa::Avx2(l) => unsafe { walk_avx2(l, &ask, &mut fan) },
+            }
+        };
+        ask.alone(open, &mut fan);
+        fan
+    }
+}
+
+/// What a fan asks.
+struct Ask<'a> {
+    accel: &'a Accel,
+    rays: &'a [Ray],
+    blocking: u8,
+    noted: u8,
+}
+
+impl Ask<'_> {
+    /// Whether the hit blocks, and notes it in `fan` for ray `i` if it was to be noted.
+    #[inline(always)]
+    fn blocks(&self, hit: &Hit, i: usize, fan: &mut Fan) -> bool {
+        let mask = self.accel.groups[hit.shape as usize].mask;
+        fan.noted |= u16::from(mask & self.noted != 0) << i;
+        mask & self.blocking != 0
+    }
+
+    /// Asks for each ray of `open` by itself.
+    #[inline(always)]
+    fn alone(&self, mut open: u32, fan: &mut Fan) {
+        while open != 0 {
+            let i = open.trailing_zeros() as usize;
+            open &= open - 1;
+            let ray = &self.rays[i];
+            let blocked = if self.noted == 0 {
+                any(self.accel, ray, self.blocking, |_| true)
+            } else {
+                any(self.accel, ray, self.blocking | self.noted, |hit| self.blocks(hit, i, fan))
+            };
+            fan.blocked |= u16::from(blocked) << i;
+        }
+    }
+
+    /// Slots of a node behind which something of interest may be.
+    #[inline(always)]
+    fn slots(&self, node: &Node) -> u32 {
+        let (mut bits, mut slots) = (u32::from(self.blocking | self.noted), 0);
+        while bits != 0 {
+            slots |= node.slots_with[bits.trailing_zeros() as usize & 7];
+            bits &= bits - 1;
+        }
+        slots
+    }
+}
+
+#[inline(never)]
+fn walk_portable(ask: &Ask<'_>, fan: &mut Fan) -> u32 {
+    walk(Portable, ask, fan)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+#[inline(never)]
+fn walk_avx2(l: Avx2, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
+    walk(l, ask, fan)
+}
+
+/// Answers for all rays but those returned, which had better go alone.
+#[inline(always)]
+fn walk<L: Kernel>(l: L, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
+    let all = (1u32 << ask.rays.len()) - 1;
+    let Some(g) = Group::new(l, ask.rays, 0) else { return all };
+    let mut groups = [g, g];
+    if ask.rays.len() > GROUP {
+        let Some(h) = Group::new(l, ask.rays, GROUP) else { return all };
+        groups[1] = h;
+    }
+    let shaft = Shaft::new(l, [&groups[0], &groups[1]]);
+    let bvh = &ask.accel.world;
+    let (nodes, blocks): (&[Node], &[Block]) = (&bvh.nodes, &bvh.blocks);
+    let mut room = MaybeUninit::uninit();
+    let mut stack = Stack { entries: &mut room, len: 0 };
+    let mut current = Child(0);
+    loop {
+        // SAFETY: the builder writes only indices of nodes that exist; leaves are not pushed.
+        let node = unsafe { nodes.get_unchecked(current.0 as usize) };
+        let (near, mask) = shaft.test(l, node);
+        let mut mask = mask & ask.slots(node);
+        if mask != 0 {
+            let near = l.store8(near);
+            let low = stack.len;
+            while mask != 0 {
+                let slot = mask.trailing_zeros() as usize & 7;
+                mask &= mask - 1;
+                let child = node.child[slot];
+                if child.is_leaf() {
+                    leaf(l, ask, &groups, bvh, node, slot, fan);
+                    if u32::from(fan.blocked) == all {
+                        return 0;
+                    }
+                } else {
+                    prefetch(l, nodes, blocks, child);
+                    stack.push((u64::from(near[slot].to_bits()) << 32) | u64::from(child.0));
+                }
+            }
+            stack.sort_from(low);
+        }
+        let Some(key) = stack.pop() else { return 0 };
+        current = Child(key as u32);
+    }
+}
+
+/// Visits the leaf in `slot` of `node` with the rays that enter its box.
+#[inline(always)]
+fn leaf<L: Kernel>(
+    l: L,
+    ask: &Ask<'_>,
+    groups: &[Group<L>; 2],
+    bvh: &Bvh,
+    node: &Node,
+    slot: usize,
+    fan: &mut Fan,
+) {
+    let open = !u32::from(fan.blocked) & ((1 << ask.rays.len()) - 1);
+    let mut active = 0;
+    for g in 0..2 {
+        if open >> (GROUP * g) & 0xff != 0 {
+            active |= groups[g].enters(l, node, slot) << (GROUP * g);
+        }
+    }
+    active &= open;
+    if active == 0 {
+        return;
+    }
+    let child = node.child[slot];
+    let (first, n) = child.range();
+    if child.is_other() {
+        alone_at(l, ask, bvh, first..first + n, active, fan);
+        return;
+    }
+    // SAFETY: leaves name ranges of blocks that exist.
+    for block in unsafe { bvh.blocks.get_unchecked(first..first + n) } {
+        for i in 0..4 {
+            triangle(l, ask, groups, block, i, active, fan);
+        }
+    }
+}
+
+/// Tests the rays of `active` that are open yet against triangle `i`.
+#[inline(always)]
+fn triangle<L: Kernel>(
+    l: L,
+    ask: &Ask<'_>,
+    groups: &[Group<L>; 2],
+    block: &Block,
+    i: usize,
+    active: u32,
+    fan: &mut Fan,
+) {
+    let mask = block.mask[i] as u8;
+    let (blocks, notes) = (mask & ask.blocking != 0, mask & ask.noted != 0);
+    let closed = if blocks {
+        fan.blocked
+    } else if notes {
+        fan.blocked | fan.noted
+    } else {
+        return;
+    };
+    let open = active & !u32::from(closed);
+    let mut met = 0;
+    for g in 0..2 {
+        let rays = open >> (GROUP * g) & 0xff;
+        if rays == 0 {
+            continue;
+        }
+        let passed = groups[g].passes(l, block, i, rays);
+        if passed != 0 {
+            met |= groups[g].reaches(l, block, i, passed, &ask.rays[GROUP * g..]) << (GROUP * g);
+        }
+    }
+    if blocks {
+        fan.blocked |= met as u16;
+    }
+    if notes {
+        fan.noted |= met as u16;
+    }
+}
+
+/// Visits a leaf of primitives that are not triangles with one ray after the other.
+#[inline(never)]
+fn alone_at<L: Kernel>(l: L, ask: &Ask<'_>, bvh: &Bvh, range: Range<usize>, mut open: u32, fan: &mut Fan) {
+    while open != 0 {
+        let i = open.trailing_zeros() as usize;
+        open &= open - 1;
+        let ray = &ask.rays[i];
+        let local = LocalRay::new(ray);
+        let mask = ask.blocking | ask.noted;
+        let blocked = if ask.noted == 0 {
+            let mut query = Query::new(ask.accel, ray, mask, |_: &Hit| true);
+            others::<L, true, _>(l, bvh, range.clone(), &local, &mut query, WORLD)
+        } else {
+            let mut query = Query::new(ask.accel, ray, mask, |hit: &Hit| ask.blocks(hit, i, fan));
+            others::<L, true, _>(l, bvh, range.clone(), &local, &mut query, WORLD)
+        };
+        fan.blocked |= u16::from(blocked) << i;
+    }
+}
