@@ -7,10 +7,15 @@ use crate::{
     volpath::{Site, Walk},
     weight::{PathWeight, divide},
 };
+use tyndall_base::Vec3;
 use tyndall_film::{Guide, Patch, PixelBounds, WorkUnit};
+use tyndall_geometry::Ray;
 use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::sampler::PathSampler;
+use tyndall_transport::{
+    sampler::PathSampler,
+    scene::{BOUNDARY, OPAQUE},
+};
 
 /// A pixel's path.
 struct Member<'s, const N: usize> {
@@ -28,7 +33,7 @@ struct Member<'s, const N: usize> {
 }
 
 /// Fills what no ray fills.
-const NOWHERE: Ray = Ray { o: Vec3::ZERO, d: Vec3::Z, t_max: 0.0, time: 0.0 };
+const NOWHERE: Ray = Ray { o: Vec3::ZERO, d: Vec3::ZERO, t_max: 0.0, time: 0.0 };
 
 /// Room for the paths of a square.
 type Members<'s, const N: usize> = [Option<Member<'s, N>>; MEMBERS];
@@ -184,13 +189,15 @@ impl PixelPass {
                 aims[i] = Some(aim);
             }
         }
-        let obstacles = self.scene.obstacles_fan(&fan[..n]);
+        let obstacles = self.scene.accel.occluded_fan(&fan[..n], OPAQUE, BOUNDARY);
         let (mut company, mut n) = (Company::empty(), 0);
         for i in 0..MEMBERS {
             if i == k {
                 company.join(i, shared.own_link(&member.walk));
-            } else if let (Some(aim), Some(Member { from: Some((from, beta)), .. })) = (&aims[i], &members[i]) {
-                let Obstacles { blocked, boundary } = obstacles.of(n);
+            } else if let (Some(aim), Some(Member { from: Some((from, beta)), .. })) = (&aims[i], &members[i])
+            {
+                let of = |rays: u16| rays >> n & 1 != 0;
+                let (blocked, boundary) = (of(obstacles.blocked), of(obstacles.noted));
                 n += 1;
                 if blocked {
                     continue;

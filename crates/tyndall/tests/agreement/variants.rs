@@ -61,6 +61,8 @@ const EVERYWHERE: &[Variant] = &[
     with_settings("equiangular off", |s| s.equiangular = Equiangular::Off, 1),
     with_settings("equiangular always", |s| s.equiangular = Equiangular::Always, 1),
     with_settings("equiangular on first segments", |s| s.equiangular_depth = 0, 1),
+    with_settings("path reuse off", |s| s.reuse = false, 1),
+    with_settings("path reuse off, equiangular always", reuse_off_equiangular, 1),
     with_settings("guiding always", |s| s.guiding = Guiding::Always, 1),
     with_settings("guiding off", |s| s.guiding = Guiding::Off, 1),
     with_settings("guiding and glow off", |s| (s.guiding, s.glow) = (Guiding::Off, false), 1),
@@ -84,6 +86,10 @@ const EVERYWHERE: &[Variant] = &[
     with_settings("all off", all_off, 3),
     HERO_4_BY_FLIGHTS,
 ];
+
+fn reuse_off_equiangular(s: &mut Settings) {
+    (s.reuse, s.equiangular) = (false, Equiangular::Always);
+}
 
 fn paper_with_lights(o: &mut Options) {
     o.integrator = Some("wang-chern".into());
