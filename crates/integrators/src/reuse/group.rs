@@ -1,13 +1,13 @@
-//! The paths of one square of pixels that share their number.
+//! The paths of one group.
 
-use super::{MEMBERS, SIDE, company::Company, end::Shared};
+use super::{CELL, GROUPS, MEMBERS, SIDE, company::Company, end::Shared};
 use crate::{
     glow,
     pixel::{Begin, PixelPass},
     volpath::{Site, Walk},
     weight::{PathWeight, divide},
 };
-use tyndall_base::Vec3;
+use tyndall_base::{Vec3, hash};
 use tyndall_film::{Guide, Patch, PixelBounds, WorkUnit};
 use tyndall_geometry::Ray;
 use tyndall_scatter::phase::PhaseFunction;
@@ -35,7 +35,7 @@ struct Member<'s, const N: usize> {
 /// Fills what no ray fills.
 const NOWHERE: Ray = Ray { o: Vec3::ZERO, d: Vec3::ZERO, t_max: 0.0, time: 0.0 };
 
-/// Room for the paths of a square.
+/// Room for the paths of a group.
 type Members<'s, const N: usize> = [Option<Member<'s, N>>; MEMBERS];
 
 impl PixelPass {
@@ -45,32 +45,37 @@ impl PixelPass {
         let mut values = vec![0.0; self.channels.len()];
         for square in unit.window.tiles(SIDE) {
             for sample in unit.samples.clone() {
-                self.square::<N>(&square, sample, (unit, guide), &mut values, out);
+                let seed = self.seed as u32;
+                let deal = hash::hash4(seed, sample, square.x0, square.y0);
+                for group in 0..GROUPS {
+                    self.group::<N>(&square, (sample, group, deal), (unit, guide), &mut values, out);
+                }
             }
         }
     }
 
-    /// Sample number `sample` of the pixels of a square that take it.
+    /// Sample number `sample` of those pixels of a square that `deal` gives to the group, and that take it.
     #[inline(always)]
-    fn square<const N: usize>(
+    fn group<const N: usize>(
         &self,
         square: &PixelBounds,
-        sample: u32,
+        (sample, group, deal): (u32, usize, u32),
         (unit, guide): (&WorkUnit, &Guide),
         values: &mut [f32],
         out: &mut Patch,
     ) {
-        let (gx, gy) = (square.x0, square.y0);
-        let group = PathSampler::of_group(self.settings.sampler, self.seed, gx, gy, sample, self.replicates);
-        let mut common = group.clone();
+        let (kind, (x0, y0)) = (self.settings.sampler, (square.x0, square.y0));
+        let net = PathSampler::of_group(kind, self.seed, x0, y0, sample, self.replicates);
+        let mut common = net.clone();
         let (u, time) = (common.next_1d(), common.next_1d());
         let w = self.wavelengths.sample::<N>(u);
         let mut members: Members<'_, N> = [const { None }; MEMBERS];
-        for (x, y) in square.pixels() {
-            if guide.samples_for(x, y, &unit.samples).contains(&sample) {
+        for k in 0..MEMBERS {
+            let (x, y) = pixel_of(square, deal, k, group);
+            if square.contains(x, y) && guide.samples_for(x, y, &unit.samples).contains(&sample) {
                 out.mark(x, y, sample);
-                let slot = ((y - gy) * SIDE + x - gx) as usize;
-                members[slot] = Some(self.set_out((x, y), sample, (&group, slot), (u, time), &w));
+                let slot = group * MEMBERS + k;
+                members[k] = Some(self.set_out((x, y), sample, (&net, slot), (u, time), &w));
             }
         }
         for k in 0..MEMBERS {
@@ -92,7 +97,7 @@ impl PixelPass {
         &'s self,
         pixel: (u32, u32),
         sample: u32,
-        (group, slot): (&PathSampler, usize),
+        (net, slot): (&PathSampler, usize),
         (u, time): (f32, f32),
         w: &'s Wavelengths<N>,
     ) -> Member<'s, N> {
@@ -104,7 +109,7 @@ impl PixelPass {
         walk.lamp = glow::lamp(scene, settings, &mut sampler);
         walk.pilot = lane_of::<N>(spectrum.x, u);
         walk.anew = true;
-        let mut sampler = sampler.joining(group, slot as u32, MEMBERS as u32);
+        let mut sampler = sampler.joining(net, slot as u32, (GROUPS * MEMBERS) as u32);
         let (mut site, mut from) = (None, None);
         if exposure != 0.0 {
             // twice the same call would be compiled twice
@@ -231,6 +236,20 @@ impl<const N: usize> Walk<'_, N> {
         self.rival = None;
         std::mem::replace(&mut self.l, Spectrum::ZERO)
     }
+}
+
+/// The pixel of cell `k` that belongs to `group`, by a random order of the cell's pixels.
+#[inline(always)]
+fn pixel_of(square: &PixelBounds, deal: u32, k: usize, group: usize) -> (u32, u32) {
+    let mut order = [0, 1, 2, 3];
+    let mut bits = hash::hash2(deal, k as u32);
+    for last in [3, 2, 1] {
+        order.swap(last, bits as usize % (last + 1));
+        bits /= 8;
+    }
+    let (cells, pick) = ((SIDE / CELL) as usize, order[group]);
+    let at = |x0: u32, cell: usize, within: usize| x0 + CELL * cell as u32 + within as u32;
+    (at(square.x0, k % cells, pick % 2), at(square.y0, k / cells, pick / 2))
 }
 
 /// The lane that lies in the same N-th of the wavelengths as `v`, where lane 0 was drawn by `u`.

@@ -15,7 +15,10 @@
 //!
 //! The paths of a group share their wavelengths and their time. Distances to `x_i` are led by a lane that is drawn for
 //! itself ([`crate::volpath::Walk::pilot`]), so that where the points lie does not depend on the hero of what follows;
-//! then the weights sum to one for every hero. Pixels of a group have errors in common: [`SIDE`] says which.
+//! then the weights sum to one for every hero.
+//!
+//! Pixels of a square of side [`SIDE`] have errors in common. For each sample they are dealt anew to groups, one pixel
+//! of each cell to each group at random: neighbours have errors of their own and a picture has grain, not blotches.
 
 mod company;
 mod end;
@@ -27,10 +30,14 @@ use crate::{
 };
 use tyndall_transport::{Scene, media::Medium};
 
-/// Side of the squares of pixels whose paths are shared, counted from the film's origin.
-pub const SIDE: u32 = 4;
-/// Pixels of a square.
-pub(crate) const MEMBERS: usize = (SIDE * SIDE) as usize;
+/// Side of the squares of pixels within which paths are shared, counted from the film's upper left corner.
+pub const SIDE: u32 = 8;
+/// Side of the cells of a square: the pixels of a cell never share, so that neighbours have errors of their own.
+pub(crate) const CELL: u32 = 2;
+/// Paths that are shared: one of each cell.
+pub(crate) const MEMBERS: usize = (SIDE / CELL * (SIDE / CELL)) as usize;
+/// Groups of paths of a square.
+pub(crate) const GROUPS: usize = (CELL * CELL) as usize;
 
 impl PixelPass {
     /// Whether paths of neighbouring pixels are shared.
