@@ -1,5 +1,5 @@
 //! Prints nanoseconds per shadow ray of fans of 16 from nearby points to one point, asked together and one by one, on
-//! generated meshes: `cargo run --release -p tyndall-geometry --example fans [fans] [rounds]`.
+//! generated meshes: `cargo run --release -p tyndall-geometry --example fans [fans] [rounds] [scene]`.
 
 #[path = "../tests/common/meshes.rs"]
 mod meshes;
@@ -112,7 +112,8 @@ fn main() {
         "{:>8} {:>9} {:>9} {:>9} {:>6} {:>8} {:>8} {:>8} {:>8}",
         "scene", "triangles", "path", "fans", "rays", "blocked", "alone ns", "fan ns", "ratio"
     );
-    for s in scenes() {
+    let only = std::env::args().nth(3);
+    for s in scenes().into_iter().filter(|s| only.as_ref().is_none_or(|name| name == s.name)) {
         for dispatch in [Dispatch::Detect, Dispatch::Portable] {
             measure(&s, dispatch, size);
         }

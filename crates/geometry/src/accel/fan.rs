@@ -5,7 +5,7 @@
 //! (boxes lie within their parents', rounding is monotone, and the shaft enters whatever a ray enters), and all tests
 //! are the same operations, so each answer is that of the ray's own query, to the last bit.
 
-use super::bundle::{GROUP, Group, Shaft};
+use super::bundle::{GROUP, Group, Plane, Shaft, grazes};
 use super::lanes::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::lanes_avx2::Avx2;
@@ -244,16 +244,18 @@ fn triangle<L: Kernel>(
         return;
     };
     let open = active & !u32::from(closed);
-    let mut met = 0;
-    for g in 0..2 {
-        let rays = open >> (GROUP * g) & 0xff;
-        if rays == 0 {
-            continue;
-        }
-        let passed = groups[g].passes(l, block, i, rays);
-        if passed != 0 {
-            met |= groups[g].reaches(l, block, i, passed, &ask.rays[GROUP * g..]) << (GROUP * g);
-        }
+    let halves = [open & 0xff, open >> GROUP];
+    let (p, q) = (groups[0].passes(l, block, i, halves[0]), groups[1].passes(l, block, i, halves[1]));
+    if p | q == 0 {
+        return;
+    }
+    let plane = Plane::new(block, i);
+    let (p, q) = (groups[0].reaches(l, &plane, p), groups[1].reaches(l, &plane, q));
+    let (mut met, mut grazing) = (p.0 | q.0 << GROUP, p.1 | q.1 << GROUP);
+    while grazing != 0 {
+        let ray = grazing.trailing_zeros();
+        grazing &= grazing - 1;
+        met |= u32::from(grazes(block, i, &ask.rays[ray as usize])) << ray;
     }
     if blocks {
         fan.blocked |= met as u16;
