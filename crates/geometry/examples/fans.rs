@@ -60,7 +60,7 @@ fn fan(accel: &Accel, s: &Scene, i: usize, jitter: f32) -> Option<Vec<Ray>> {
     let d = tyndall_base::warp::sample_cosine_hemisphere(spread(7 * i));
     let ray = x.spawn(Frame::from_z(x.ng).from_local(d).normalize());
     let y = meet(accel, &ray)?;
-    let target = if i % 2 == 0 { y.origin(-ray.d) } else { x.p + (y.p - x.p) * spread(3 * i)[0] };
+    let target = if i.is_multiple_of(2) { y.origin(-ray.d) } else { x.p + (y.p - x.p) * spread(3 * i)[0] };
     let faces = |p: &&SurfacePoint| p.ng.dot(target - p.p) > 0.0;
     let rays: Vec<Ray> = points.iter().filter(faces).filter_map(|p| p.spawn_to(target)).collect();
     (rays.len() > 1).then_some(rays)

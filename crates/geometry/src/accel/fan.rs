@@ -1,9 +1,10 @@
 //! A fan: up to sixteen rays, about to one point, that ask together whether anything is in their way.
 //!
-//! One walk for all. Boxes of the tree are tested against the shaft around the rays; at a leaf each ray tests the leaf's
-//! box, then those that enter it test its triangles side by side. A ray alone visits exactly the leaves whose box it enters
-//! (boxes lie within their parents', rounding is monotone, and the shaft enters whatever a ray enters), and all tests
-//! are the same operations, so each answer is that of the ray's own query, to the last bit.
+//! One walk for all. A node's boxes are tested against the shaft around the rays; those that it enters are tested by each
+//! ray for itself, side by side, and so are the triangles of a leaf. Where fewer than [`LEAST`] rays enter a node they go on
+//! alone. A ray alone visits exactly the leaves whose box it enters (boxes lie within their parents', rounding is
+//! monotone, and the shaft enters whatever a ray enters), and all tests are the same operations, so each answer is that of
+//! the ray's own query, to the last bit.
 
 use super::bundle::{GROUP, Group, Plane, Shaft, grazes};
 use super::lanes::Portable;
