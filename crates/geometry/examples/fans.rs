@@ -1,5 +1,5 @@
 //! Prints nanoseconds per shadow ray of fans of 16 from nearby points to one point, asked together and one by one, on
-//! generated meshes: `cargo run --release -p tyndall-geometry --example fans [fans] [rounds]`.
+//! generated meshes: `cargo run --release -p tyndall-geometry --example fans [fans] [rounds] [scene]`.
 
 #[path = "../tests/common/meshes.rs"]
 mod meshes;
@@ -60,7 +60,7 @@ fn fan(accel: &Accel, s: &Scene, i: usize, jitter: f32) -> Option<Vec<Ray>> {
     let d = tyndall_base::warp::sample_cosine_hemisphere(spread(7 * i));
     let ray = x.spawn(Frame::from_z(x.ng).from_local(d).normalize());
     let y = meet(accel, &ray)?;
-    let target = if i % 2 == 0 { y.origin(-ray.d) } else { x.p + (y.p - x.p) * spread(3 * i)[0] };
+    let target = if i.is_multiple_of(2) { y.origin(-ray.d) } else { x.p + (y.p - x.p) * spread(3 * i)[0] };
     let faces = |p: &&SurfacePoint| p.ng.dot(target - p.p) > 0.0;
     let rays: Vec<Ray> = points.iter().filter(faces).filter_map(|p| p.spawn_to(target)).collect();
     (rays.len() > 1).then_some(rays)
@@ -112,7 +112,8 @@ fn main() {
         "{:>8} {:>9} {:>9} {:>9} {:>6} {:>8} {:>8} {:>8} {:>8}",
         "scene", "triangles", "path", "fans", "rays", "blocked", "alone ns", "fan ns", "ratio"
     );
-    for s in scenes() {
+    let only = std::env::args().nth(3);
+    for s in scenes().into_iter().filter(|s| only.as_ref().is_none_or(|name| name == s.name)) {
         for dispatch in [Dispatch::Detect, Dispatch::Portable] {
             measure(&s, dispatch, size);
         }

@@ -4,6 +4,10 @@
 //! [`SurfacePoint`] of a hit when it is needed. Rays leave surfaces by [`SurfacePoint::spawn`].
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "a negated comparison also refuses NaN")]
 
+// tests within share scenes with those of `tests/`
+#[cfg(test)]
+extern crate self as tyndall_geometry;
+
 pub mod accel;
 pub mod bounds;
 pub mod dvec;

@@ -165,6 +165,26 @@ impl Scene {
         Obstacles { blocked, boundary }
     }
 
+    /// [`Scene::obstacles`] of up to 16 rays of one time, written to `out` in their order: much faster than one by one for
+    /// rays that are near each other along their whole way.
+    ///
+    /// # Panics
+    /// With more than 16 rays, or more rays than room.
+    #[inline(always)]
+    pub fn obstacles_fan(&self, rays: &[Ray], out: &mut [Obstacles]) {
+        if self.has_alpha {
+            for i in 0..rays.len() {
+                out[i] = self.obstacles(&rays[i]);
+            }
+            return;
+        }
+        let noted = if self.has_boundaries { BOUNDARY } else { 0 };
+        let fan = self.accel.occluded_fan(rays, OPAQUE, noted);
+        for i in 0..rays.len() {
+            out[i] = Obstacles { blocked: fan.blocked >> i & 1 != 0, boundary: fan.noted >> i & 1 != 0 };
+        }
+    }
+
     #[inline(never)]
     fn nearest_opaque(&self, ray: &Ray, mask: u8) -> Option<Hit> {
         self.accel.intersect_filtered(ray, mask, |hit| self.sees(ray, hit))

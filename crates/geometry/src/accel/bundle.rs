@@ -80,34 +80,26 @@ impl<L: Lanes> Group<L> {
     /// Those of `rays` whose line passes through triangle `i`: the operations of `Shear::test`.
     #[inline(always)]
     pub fn passes(&self, l: L, block: &Block, i: usize, rays: u32) -> u32 {
+        let [x, y, z] = [rays & self.long[0], rays & self.long[1], rays & self.long[2]];
         let mut passed = 0;
-        for long in 0..3 {
-            if rays & self.long[long] != 0 {
-                passed |= rays & self.long[long] & self.side(l, block, i, long);
-            }
+        if x != 0 {
+            passed |= x & self.side::<0>(l, block, i);
+        }
+        if y != 0 {
+            passed |= y & self.side::<1>(l, block, i);
+        }
+        if z != 0 {
+            passed |= z & self.side::<2>(l, block, i);
         }
         passed
     }
 
-    /// Corner `k` as the rays see it: they pass through (0, 0).
+    /// The edge test with `LONG` as the longest axis.
     #[inline(always)]
-    fn corner(&self, l: L, block: &Block, i: usize, long: usize, k: usize) -> [L::F8; 2] {
-        // no closures here: they are too long to be inlined
-        let ([x, y, z], slope, corner) = (AXES[long], &self.slope[long], &block.corner[k]);
-        let z = l.sub8(l.splat8(corner[z][i]), self.o[z]);
-        let x = l.sub8(l.splat8(corner[x][i]), self.o[x]);
-        let y = l.sub8(l.splat8(corner[y][i]), self.o[y]);
-        [l.fnmadd8(slope[0], z, x), l.fnmadd8(slope[1], z, y)]
-    }
-
-    /// The edge test with `long` as the longest axis.
-    #[inline(always)]
-    fn side(&self, l: L, block: &Block, i: usize, long: usize) -> u32 {
-        let (a, b, c) = (
-            self.corner(l, block, i, long, 0),
-            self.corner(l, block, i, long, 1),
-            self.corner(l, block, i, long, 2),
-        );
+    fn side<const LONG: usize>(&self, l: L, block: &Block, i: usize) -> u32 {
+        let a = self.corner::<LONG>(l, block, i, 0);
+        let b = self.corner::<LONG>(l, block, i, 1);
+        let c = self.corner::<LONG>(l, block, i, 2);
         let side = |p: [L::F8; 2], q: [L::F8; 2]| l.sub8(l.mul8(p[0], q[1]), l.mul8(p[1], q[0]));
         let (u, v, w) = (side(c, a), side(a, b), side(b, c));
         let zero = l.splat8(0.0);
@@ -116,40 +108,37 @@ impl<L: Lanes> Group<L> {
         front | back
     }
 
-    /// Those of `rays` that meet triangle `i`'s plane before their end: the operations of `distance`.
+    /// Corner `k` as the rays see it: they pass through (0, 0).
     #[inline(always)]
-    pub fn reaches(&self, l: L, block: &Block, i: usize, rays: u32, all: &[Ray]) -> u32 {
-        let corner = |k: usize| {
-            let x = |j: usize| f64::from(block.corner[k][j][i]);
-            dvec3(x(0), x(1), x(2))
-        };
-        let a = corner(0);
-        let n = (corner(1) - a).cross(corner(2) - a);
-        let (mut met, mut grazing) = (0, 0);
-        for half in [false, true] {
-            let shift = 4 * u32::from(half);
-            if rays >> shift & 0xf != 0 {
-                let (m, g) = self.before_end(l, half, a, n);
-                met |= m << shift;
-                grazing |= g << shift;
-            }
-        }
-        let mut grazing = grazing & rays;
-        met &= rays & !grazing;
-        while grazing != 0 {
-            let i_ray = grazing.trailing_zeros() as usize;
-            grazing &= grazing - 1;
-            let ray = &all[i_ray.min(all.len() - 1)];
-            met |= u32::from(grazes(block, i, ray)) << i_ray;
-        }
-        met
+    fn corner<const LONG: usize>(&self, l: L, block: &Block, i: usize, k: usize) -> [L::F8; 2] {
+        // no closures here: they are too long to be inlined
+        let ([x, y, z], slope, corner) = (AXES[LONG], &self.slope[LONG], &block.corner[k]);
+        let z = l.sub8(l.splat8(corner[z][i]), self.o[z]);
+        let x = l.sub8(l.splat8(corner[x][i]), self.o[x]);
+        let y = l.sub8(l.splat8(corner[y][i]), self.o[y]);
+        [l.fnmadd8(slope[0], z, x), l.fnmadd8(slope[1], z, y)]
     }
 
-    /// Four rays and the plane through `a` with normal `n`: who meets it before the end, and whose angle is too small to tell.
+    /// Those of `rays` that meet `plane` before their end, and among all those whose angle with it is too small to tell:
+    /// the operations of `distance`.
     #[inline(always)]
-    fn before_end(&self, l: L, half: bool, a: DVec3, n: DVec3) -> (u32, u32) {
+    pub fn reaches(&self, l: L, plane: &Plane, rays: u32) -> (u32, u32) {
+        let (mut met, mut grazing) = (0, 0);
+        if rays & 0xf != 0 {
+            (met, grazing) = self.before_end(l, false, plane);
+        }
+        if rays & 0xf0 != 0 {
+            let (m, g) = self.before_end(l, true, plane);
+            (met, grazing) = (met | m << 4, grazing | g << 4);
+        }
+        (met & rays & !grazing, grazing & rays)
+    }
+
+    /// Four rays: who meets the plane before the end, and whose angle is too small to tell.
+    #[inline(always)]
+    fn before_end(&self, l: L, half: bool, plane: &Plane) -> (u32, u32) {
         let wide = |x: L::F8| l.widen4(l.half8(x, half));
-        let (a, n) = (a.to_array(), n.to_array());
+        let (a, n) = (plane.a.to_array(), plane.n.to_array());
         let n = [l.splat4d(n[0]), l.splat4d(n[1]), l.splat4d(n[2])];
         let sum = |x: [L::D4; 3]| l.add4d(l.add4d(x[0], x[1]), x[2]);
         let p = |k: usize| l.mul4d(n[k], wide(self.d[k]));
@@ -163,10 +152,29 @@ impl<L: Lanes> Group<L> {
     }
 }
 
-/// One ray that nearly runs within triangle `i`'s plane.
+/// The plane of a triangle: a corner and the normal as `distance` works it out.
+pub(super) struct Plane {
+    a: DVec3,
+    n: DVec3,
+}
+
+impl Plane {
+    /// That of triangle `i`.
+    #[inline(always)]
+    pub fn new(block: &Block, i: usize) -> Self {
+        let corner = |k: usize| {
+            let x = |j: usize| f64::from(block.corner[k][j][i]);
+            dvec3(x(0), x(1), x(2))
+        };
+        let a = corner(0);
+        Self { a, n: (corner(1) - a).cross(corner(2) - a) }
+    }
+}
+
+/// Whether one ray that nearly runs within triangle `i`'s plane meets it.
 #[cold]
 #[inline(never)]
-fn grazes(block: &Block, i: usize, ray: &Ray) -> bool {
+pub(super) fn grazes(block: &Block, i: usize, ray: &Ray) -> bool {
     distance(block, i, &LocalRay::new(ray)).is_some_and(|t| t > 0.0 && t <= f64::from(ray.t_max))
 }
 

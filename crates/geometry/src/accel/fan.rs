@@ -1,21 +1,21 @@
 //! A fan: up to sixteen rays, about to one point, that ask together whether anything is in their way.
 //!
-//! One walk for all. Boxes of the tree are tested against the shaft around the rays; at a leaf each ray tests the leaf's
-//! box, then those that enter it test its triangles side by side. A ray alone visits exactly the leaves whose box it enters
-//! (boxes lie within their parents', rounding is monotone, and the shaft enters whatever a ray enters), and all tests
-//! are the same operations, so each answer is that of the ray's own query, to the last bit.
+//! One walk for all. A node's boxes are tested against the shaft around the rays; those that it enters are tested by each
+//! ray for itself, side by side, and so are the triangles of a leaf. Where fewer than [`LEAST`] rays enter a node they go on
+//! alone. A ray alone visits exactly the leaves whose box it enters (boxes lie within their parents', rounding is
+//! monotone, and the shaft enters whatever a ray enters), and all tests are the same operations, so each answer is that of
+//! the ray's own query, to the last bit.
 
-use super::bundle::{GROUP, Group, Shaft};
+use super::bundle::{GROUP, Group, Plane, Shaft, grazes};
 use super::lanes::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::lanes_avx2::Avx2;
 use super::node::{Block, Bvh, Child, Node};
-use super::query::{Kernel, LocalRay, Query, any, others};
+use super::query::{Kernel, LocalRay, Query, any};
 use super::traverse::{Stack, WORLD, prefetch};
 use super::{Accel, Isa};
 use crate::{Hit, Ray};
 use std::mem::MaybeUninit;
-use std::ops::Range;
 
 /// What lies on the rays of a fan; bit i is for ray i.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,6 +30,8 @@ pub struct Fan {
 const MOST: usize = 2 * GROUP;
 /// Fewer rays go alone.
 const LEAST: usize = 3;
+/// Multiply-add in software costs more than a shared walk saves.
+const PORTABLE_PAYS: bool = cfg!(any(target_arch = "aarch64", target_feature = "fma"));
 
 impl Accel {
     /// For each of up to 16 rays of one time: whether a group whose mask shares a bit with `mask_blocking` lies on it, as
@@ -44,9 +46,10 @@ impl Accel {
         let ask = Ask { accel: self, rays, blocking: mask_blocking, noted: mask_noted };
         let mut fan = Fan::default();
         let open = if rays.len() < LEAST {
-            (1 << rays.len()) - 1
+            ask.all()
         } else {
             match self.isa {
+                Isa::Portable if !PORTABLE_PAYS => ask.all(),
                 Isa::Portable => walk_portable(&ask, &mut fan),
                 #[cfg(target_arch = "x86_64")]
                 // SAFETY: the value exists only where the processor has these instructions.
@@ -67,6 +70,12 @@ struct Ask<'a> {
 }
 
 impl Ask<'_> {
+    /// The rays' bits.
+    #[inline(always)]
+    fn all(&self) -> u32 {
+        (1 << self.rays.len()) - 1
+    }
+
     /// Whether the hit blocks, and notes it in `fan` for ray `i` if it was to be noted.
     #[inline(always)]
     fn blocks(&self, hit: &Hit, i: usize, fan: &mut Fan) -> bool {
@@ -76,7 +85,7 @@ impl Ask<'_> {
     }
 
     /// Asks for each ray of `open` by itself.
-    #[inline(always)]
+    #[inline]
     fn alone(&self, mut open: u32, fan: &mut Fan) {
         while open != 0 {
             let i = open.trailing_zeros() as usize;
@@ -118,7 +127,7 @@ fn walk_avx2(l: Avx2, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
 /// Answers for all rays but those returned, which had better go alone.
 #[inline(always)]
 fn walk<L: Kernel>(l: L, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
-    let all = (1u32 << ask.rays.len()) - 1;
+    let all = ask.all();
     let Some(g) = Group::new(l, ask.rays, 0) else { return all };
     let mut groups = [g, g];
     if ask.rays.len() > GROUP {
@@ -130,7 +139,7 @@ fn walk<L: Kernel>(l: L, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
     let (nodes, blocks): (&[Node], &[Block]) = (&bvh.nodes, &bvh.blocks);
     let mut room = MaybeUninit::uninit();
     let mut stack = Stack { entries: &mut room, len: 0 };
-    let mut current = Child(0);
+    let (mut current, mut active) = (Child::ROOT, all);
     loop {
         // SAFETY: the builder writes only indices of nodes that exist; leaves are not pushed.
         let node = unsafe { nodes.get_unchecked(current.0 as usize) };
@@ -142,52 +151,71 @@ fn walk<L: Kernel>(l: L, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
             while mask != 0 {
                 let slot = mask.trailing_zeros() as usize & 7;
                 mask &= mask - 1;
+                let entering = entering(l, &groups, node, slot, active & !u32::from(fan.blocked));
+                if entering == 0 {
+                    continue;
+                }
                 let child = node.child[slot];
                 if child.is_leaf() {
-                    leaf(l, ask, &groups, bvh, node, slot, fan);
+                    leaf(l, ask, &groups, bvh, child, entering, fan);
                     if u32::from(fan.blocked) == all {
                         return 0;
                     }
                 } else {
                     prefetch(l, nodes, blocks, child);
-                    stack.push((u64::from(near[slot].to_bits()) << 32) | u64::from(child.0));
+                    stack.push(entry(near[slot], entering, child));
                 }
             }
             stack.sort_from(low);
         }
-        let Some(key) = stack.pop() else { return 0 };
-        current = Child(key as u32);
+        loop {
+            let Some(key) = stack.pop() else { return 0 };
+            current = Child(key as u32);
+            active = (key >> 32) as u32 & 0xffff & !u32::from(fan.blocked);
+            if active.count_ones() >= LEAST as u32 {
+                break;
+            }
+            if active != 0 {
+                alone_from(l, ask, bvh, current, active, fan);
+            }
+        }
     }
 }
 
-/// Visits the leaf in `slot` of `node` with the rays that enter its box.
+/// A node to visit: entry distance in its upper bits, the rays that enter it, its index.
+#[inline(always)]
+fn entry(near: f32, rays: u32, child: Child) -> u64 {
+    (u64::from(near.to_bits() & 0xffff_0000) << 32) | (u64::from(rays) << 32) | u64::from(child.0)
+}
+
+/// Those of `rays` that enter the box in `slot`.
+#[inline(always)]
+fn entering<L: Kernel>(l: L, groups: &[Group<L>; 2], node: &Node, slot: usize, rays: u32) -> u32 {
+    let mut entering = 0;
+    for g in 0..2 {
+        if rays >> (GROUP * g) & 0xff != 0 {
+            entering |= groups[g].enters(l, node, slot) << (GROUP * g);
+        }
+    }
+    entering & rays
+}
+
+/// Visits a leaf with the rays that enter its box.
 #[inline(always)]
 fn leaf<L: Kernel>(
     l: L,
     ask: &Ask<'_>,
     groups: &[Group<L>; 2],
     bvh: &Bvh,
-    node: &Node,
-    slot: usize,
+    child: Child,
+    active: u32,
     fan: &mut Fan,
 ) {
-    let open = !u32::from(fan.blocked) & ((1 << ask.rays.len()) - 1);
-    let mut active = 0;
-    for g in 0..2 {
-        if open >> (GROUP * g) & 0xff != 0 {
-            active |= groups[g].enters(l, node, slot) << (GROUP * g);
-        }
-    }
-    active &= open;
-    if active == 0 {
-        return;
-    }
-    let child = node.child[slot];
-    let (first, n) = child.range();
     if child.is_other() {
-        alone_at(l, ask, bvh, first..first + n, active, fan);
+        alone_from(l, ask, bvh, child, active, fan);
         return;
     }
+    let (first, n) = child.range();
     // SAFETY: leaves name ranges of blocks that exist.
     for block in unsafe { bvh.blocks.get_unchecked(first..first + n) } {
         for i in 0..4 {
@@ -217,16 +245,18 @@ fn triangle<L: Kernel>(
         return;
     };
     let open = active & !u32::from(closed);
-    let mut met = 0;
-    for g in 0..2 {
-        let rays = open >> (GROUP * g) & 0xff;
-        if rays == 0 {
-            continue;
-        }
-        let passed = groups[g].passes(l, block, i, rays);
-        if passed != 0 {
-            met |= groups[g].reaches(l, block, i, passed, &ask.rays[GROUP * g..]) << (GROUP * g);
-        }
+    let halves = [open & 0xff, open >> GROUP];
+    let (p, q) = (groups[0].passes(l, block, i, halves[0]), groups[1].passes(l, block, i, halves[1]));
+    if p | q == 0 {
+        return;
+    }
+    let plane = Plane::new(block, i);
+    let (p, q) = (groups[0].reaches(l, &plane, p), groups[1].reaches(l, &plane, q));
+    let (mut met, mut grazing) = (p.0 | q.0 << GROUP, p.1 | q.1 << GROUP);
+    while grazing != 0 {
+        let ray = grazing.trailing_zeros();
+        grazing &= grazing - 1;
+        met |= u32::from(grazes(block, i, &ask.rays[ray as usize])) << ray;
     }
     if blocks {
         fan.blocked |= met as u16;
@@ -236,22 +266,25 @@ fn triangle<L: Kernel>(
     }
 }
 
-/// Visits a leaf of primitives that are not triangles with one ray after the other.
+/// Visits what is below `from` with one ray of `open` after the other.
 #[inline(never)]
-fn alone_at<L: Kernel>(l: L, ask: &Ask<'_>, bvh: &Bvh, range: Range<usize>, mut open: u32, fan: &mut Fan) {
+fn alone_from<L: Kernel>(l: L, ask: &Ask<'_>, bvh: &Bvh, from: Child, mut open: u32, fan: &mut Fan) {
     while open != 0 {
         let i = open.trailing_zeros() as usize;
         open &= open - 1;
         let ray = &ask.rays[i];
         let local = LocalRay::new(ray);
-        let mask = ask.blocking | ask.noted;
         let blocked = if ask.noted == 0 {
-            let mut query = Query::new(ask.accel, ray, mask, |_: &Hit| true);
-            others::<L, true, _>(l, bvh, range.clone(), &local, &mut query, WORLD)
+            let mut query = Query::new(ask.accel, ray, ask.blocking, |_: &Hit| true);
+            l.level::<true, _>(bvh, from, &local, &mut query, WORLD)
         } else {
+            let mask = ask.blocking | ask.noted;
             let mut query = Query::new(ask.accel, ray, mask, |hit: &Hit| ask.blocks(hit, i, fan));
-            others::<L, true, _>(l, bvh, range.clone(), &local, &mut query, WORLD)
+            l.level::<true, _>(bvh, from, &local, &mut query, WORLD)
         };
         fan.blocked |= u16::from(blocked) << i;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -23,6 +23,8 @@ pub(crate) struct Child(pub u32);
 impl Child {
     const LEAF: u32 = 1 << 31;
     const OTHER: u32 = 1 << 30;
+    /// The node that a level begins with.
+    pub const ROOT: Self = Self(0);
     /// No child; its box is empty, so a traversal never follows it.
     pub const NONE: Self = Self(u32::MAX);
     /// Indices that fit beside the two flags and the count.

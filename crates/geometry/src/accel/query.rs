@@ -3,7 +3,7 @@
 use super::lanes::{Lanes, Portable};
 #[cfg(target_arch = "x86_64")]
 use super::lanes_avx2::Avx2;
-use super::node::{Bvh, Node, Other, WIDTH};
+use super::node::{Bvh, Child, Node, Other, WIDTH};
 use super::traverse::{WORLD, walk};
 use super::{Accel, Isa};
 use crate::dvec::DVec3;
@@ -113,9 +113,11 @@ impl Hit {
 
 /// An instruction set's own copy of the walk, so that all below is compiled for it.
 pub(crate) trait Kernel: Lanes {
+    /// The walk from the node `from` on.
     fn level<const ANY: bool, F: FnMut(&Hit) -> bool>(
         self,
         bvh: &Bvh,
+        from: Child,
         ray: &LocalRay,
         query: &mut Query<'_, F>,
         instance: u32,
@@ -127,11 +129,12 @@ impl Kernel for Portable {
     fn level<const ANY: bool, F: FnMut(&Hit) -> bool>(
         self,
         bvh: &Bvh,
+        from: Child,
         ray: &LocalRay,
         query: &mut Query<'_, F>,
         instance: u32,
     ) -> bool {
-        walk::<Self, ANY, F>(self, bvh, ray, query, instance)
+        walk::<Self, ANY, F>(self, bvh, from, ray, query, instance)
     }
 }
 
@@ -141,12 +144,13 @@ impl Kernel for Avx2 {
     fn level<const ANY: bool, F: FnMut(&Hit) -> bool>(
         self,
         bvh: &Bvh,
+        from: Child,
         ray: &LocalRay,
         query: &mut Query<'_, F>,
         instance: u32,
     ) -> bool {
         // SAFETY: `self` exists only where the processor has these instructions.
-        unsafe { level_avx2::<ANY, F>(self, bvh, ray, query, instance) }
+        unsafe { level_avx2::<ANY, F>(self, bvh, from, ray, query, instance) }
     }
 }
 
@@ -155,11 +159,12 @@ impl Kernel for Avx2 {
 fn level_avx2<const ANY: bool, F: FnMut(&Hit) -> bool>(
     l: Avx2,
     bvh: &Bvh,
+    from: Child,
     ray: &LocalRay,
     query: &mut Query<'_, F>,
     instance: u32,
 ) -> bool {
-    walk::<Avx2, ANY, F>(l, bvh, ray, query, instance)
+    walk::<Avx2, ANY, F>(l, bvh, from, ray, query, instance)
 }
 
 /// Meets the primitives that are not triangles.
@@ -183,7 +188,7 @@ pub(crate) fn others<K: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
                 let placed = &accel.instances[index as usize];
                 let mut room = None;
                 let local = ray.in_object(placed.to_world(query.time, &mut room));
-                k.level::<ANY, F>(&accel.objects[placed.object as usize], &local, query, index)
+                k.level::<ANY, F>(&accel.objects[placed.object as usize], Child::ROOT, &local, query, index)
             }
         };
         if ANY && hit {
@@ -243,9 +248,9 @@ pub(crate) fn any<F: FnMut(&Hit) -> bool>(accel: &Accel, ray: &Ray, mask: u8, fi
 fn run<const ANY: bool, F: FnMut(&Hit) -> bool>(accel: &Accel, ray: &Ray, query: &mut Query<'_, F>) -> bool {
     let local = LocalRay::new(ray);
     match accel.isa {
-        Isa::Portable => Portable.level::<ANY, F>(&accel.world, &local, query, WORLD),
+        Isa::Portable => Portable.level::<ANY, F>(&accel.world, Child::ROOT, &local, query, WORLD),
         #[cfg(target_arch = "x86_64")]
-        Isa::Avx2(l) => l.level::<ANY, F>(&accel.world, &local, query, WORLD),
+        Isa::Avx2(l) => l.level::<ANY, F>(&accel.world, Child::ROOT, &local, query, WORLD),
     }
 }
 

@@ -103,11 +103,12 @@ impl Stack<'_> {
     }
 }
 
-/// Visits `bvh`; in `ANY` mode returns at the first accepted hit, else leaves the nearest in `query`.
+/// Visits `bvh` from the node `from` on; in `ANY` mode returns at the first accepted hit, else leaves the nearest in `query`.
 #[inline(always)]
 pub(crate) fn walk<L: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
     l: L,
     bvh: &Bvh,
+    from: Child,
     ray: &LocalRay,
     query: &mut Query<'_, F>,
     instance: u32,
@@ -119,7 +120,7 @@ pub(crate) fn walk<L: Kernel, const ANY: bool, F: FnMut(&Hit) -> bool>(
     let mut stack = Stack { entries: &mut room, len: 0 };
     let mut t_max = l.splat8(query.t_max());
     let mut found = false;
-    let mut current = Child(0);
+    let mut current = from;
     loop {
         if !current.is_leaf() {
             // SAFETY: the builder writes only indices of nodes that exist, and empty slots have empty boxes.
