@@ -59,7 +59,7 @@ fn clean(image: &Image, planes: &[(&[f32], &[f32])], threads: usize) -> Result<V
     denoise(&noisy.alike(image.square(), correlation(image)), threads)
 }
 
-/// Correlation of two pixels of a square where the file does not tell: what the fog box has.
+/// Correlation of two pixels of a square where the file does not tell: assumed, for pictures alone, where a bound would blur.
 const USUAL: f32 = 0.2;
 
 /// Mean correlation of two pixels of a square, over all channels: with errors s of pixels and S of the mean over the n of a
