@@ -165,8 +165,11 @@ fn regions_are_means_with_their_errors() {
     let ((rows, header), (regions, names)) = (table(&place, "a.csv"), table(&place, "r.csv"));
     let inside = |r: &&Vec<f64>| (2.0..5.0).contains(&r[0]) && (3.0..9.0).contains(&r[1]);
     let (value, se) = (column(&header, "G [W m^-2 sr^-1]"), column(&header, "G se"));
-    let (mut sum, mut squares) = (0.0, 0.0);
-    rows.iter().filter(inside).for_each(|r| (sum, squares) = (sum + r[value], squares + r[se] * r[se]));
+    let sum: f64 = rows.iter().filter(inside).map(|r| r[value]).sum();
+    // pixels of a square of 4 x 4 share paths: without replicates they count as if they erred as one
+    let square =
+        |i: usize| rows.iter().filter(inside).filter(move |r| r[1] as usize / 4 * 4 + r[0] as usize / 4 == i);
+    let squares: f64 = (0..16).map(|i| square(i).map(|r| r[se]).sum::<f64>().powi(2)).sum();
     let cell = |row: usize, name: &str| regions[row][column(&names, name)];
     assert_eq!([cell(1, "x0"), cell(1, "x1"), cell(1, "y0"), cell(1, "y1")], [2.0, 5.0, 3.0, 9.0]);
     assert_eq!((cell(1, "pixels"), cell(1, "statistics.samples [1]")), (18.0, 288.0));
@@ -176,6 +179,29 @@ fn regions_are_means_with_their_errors() {
     assert_eq!((cell(0, "pixels"), cell(0, "G se")), (1.0, pixel[se]));
     let outside = place.run("develop a.exr -o x.csv --region 8,17,0,4");
     assert!(outside.refusal().contains("region 8,17,0,4 lies outside"), "{}", outside.err);
+}
+
+/// With replicates the errors of whole squares of pixels are known, in the film and in what is made of it.
+#[test]
+fn regions_of_whole_squares_are_exact() {
+    let place = Place::new();
+    place.ok("render --resolution 16x16 --spp 16 --errors replicated --quiet -o a.exr -o a.film -o a.csv");
+    let se = |input: &str, region: &str| {
+        place.ok(&format!("develop {input} -o r.csv --force --region {region}"));
+        let (rows, header) = table(&place, "r.csv");
+        rows[0][column(&header, "G se")]
+    };
+    let (rows, header) = table(&place, "a.csv");
+    let all: f64 = rows.iter().map(|r| r[column(&header, "G se")]).sum::<f64>() / 256.0;
+    let exact = se("a.film", "4,12,8,16");
+    assert_eq!(se("a.exr", "4,12,8,16"), exact);
+    assert!(exact < all, "below the errors of pixels: {exact}, {all}");
+    // four single rows of two squares, as if their pixels erred as one, and the same eight columns as squares
+    assert!(se("a.exr", "4,12,9,12") > se("a.exr", "4,12,8,12"));
+    let text = String::from_utf8(place.read("r.csv")).expect("text");
+    assert!(text.contains("squares of 4 x 4") || text.contains("a square of 4 x 4"), "{text}");
+    let diff = place.ok("diff a.exr a.film --json");
+    assert!(diff.out.contains("identical"), "{}", diff.out);
 }
 
 #[test]

@@ -25,8 +25,10 @@ use crate::{EngineError, Job, Position, Shard, State};
 
 /// The first bytes of every file.
 pub const MAGIC: [u8; 8] = *b"TYNDFILM";
-/// Version of the format; a reader refuses any other.
-pub const VERSION: u32 = 1;
+/// Version of the format; a reader refuses newer ones.
+pub const VERSION: u32 = 2;
+/// Versions before 2 knew no pixels that share paths. Films without such pixels are still written as version 1.
+const WITHOUT_SQUARES: u32 = 1;
 const CHECKSUM: u64 = 32;
 const LEVEL: i32 = 1;
 /// No zstd stream unpacks to more: a block of 4 bytes stands for 128 KiB at most (RFC 8878, 3.1.1.2).
@@ -100,7 +102,8 @@ pub fn write(
 fn write_content(out: &mut dyn Write, header: &Header, guide: &[u8], film: &Film) -> io::Result<()> {
     let json = serde_json::to_vec(header)?;
     out.write_all(&MAGIC)?;
-    out.write_all(&VERSION.to_le_bytes())?;
+    let version = if header.film.square == 1 { WITHOUT_SQUARES } else { VERSION };
+    out.write_all(&version.to_le_bytes())?;
     out.write_all(&(json.len() as u64).to_le_bytes())?;
     out.write_all(&json)?;
     let mut stream = zstd::Encoder::new(out, LEVEL)?;
@@ -186,8 +189,9 @@ fn read_header(body: &mut impl Read, length: u64, path: &Path) -> Result<Header,
     let mut head = [0; 20];
     body.read_exact(&mut head).map_err(io)?;
     let version = u32::from_le_bytes([head[8], head[9], head[10], head[11]]);
-    if version != VERSION {
-        let differences = vec![format!("format version: {version} there, {VERSION} here")];
+    if !(WITHOUT_SQUARES..=VERSION).contains(&version) {
+        let here = format!("{WITHOUT_SQUARES} to {VERSION} here");
+        let differences = vec![format!("format version: {version} there, {here}")];
         return Err(EngineError::OtherJob { path: path.into(), differences });
     }
     let size = u64::from_le_bytes(std::array::from_fn(|k| head[12 + k]));

@@ -266,6 +266,7 @@ mod tests {
             film(|f| f.seed = 1),
             film(|f| f.mode = ErrorMode::Conservative),
             film(|f| f.clamp = Some(3.0)),
+            film(|f| f.square = 4),
             film(|f| f.bounds.x1 = 7),
             Job { spp: 255, ..job() }.hash(),
             Job { scene_hash: "x".into(), ..job() }.hash(),
@@ -277,7 +278,7 @@ mod tests {
         hashes.push(base);
         hashes.sort();
         hashes.dedup();
-        assert_eq!(hashes.len(), 9);
+        assert_eq!(hashes.len(), 10);
     }
 
     #[test]

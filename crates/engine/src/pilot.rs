@@ -14,7 +14,8 @@ use crate::{Job, Quantity, Target};
 pub const FRACTION: f64 = 0.95;
 /// Most looks at the errors.
 pub const MAX_LOOKS: u32 = 6;
-/// F(7, 63) at 95 %: eight replicates against nine pooled pixels of the pilot.
+/// F(7, 63) at 95 %: eight replicates against nine pooled pixels of the pilot. Pixels that share paths know less than nine
+/// that do not, and then a second look comes more often; what the target says of a pixel stays right.
 const MARGIN: f64 = 2.16;
 /// A look adds at most this many times what a pixel has.
 const GROWTH: f64 = 4.0;

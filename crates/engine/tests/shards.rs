@@ -4,11 +4,13 @@
 mod common;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use common::{Hashed, Shape, cropped, film, run};
+use tyndall_engine::container::read;
 use tyndall_engine::shard::{merge, save};
 use tyndall_engine::{EngineError, Job, Shard, Target};
-use tyndall_film::{ErrorMode, Guide};
+use tyndall_film::{ErrorMode, FilmSpec, Guide};
 
 const LIMIT: u64 = 1 << 30;
 
@@ -50,6 +52,29 @@ fn any_cut_and_order_gives_the_bits_of_one_run() {
             }
         }
     }
+}
+
+/// Films whose pixels share paths say so on disk, and do not mix with others; those of independent pixels are as ever.
+#[test]
+fn squares_are_kept_and_do_not_mix() {
+    let folder = tempfile::tempdir().unwrap();
+    let job = |square| {
+        let film = FilmSpec { square, ..(*cropped(ErrorMode::REPLICATED)).clone() };
+        Job::new(Arc::new(film), 40)
+    };
+    let version = |path: &Path| std::fs::read(path).unwrap()[8];
+    let [a, b] = [1, 2].map(|k| render(folder.path(), &job(4), k, 2));
+    let merged = merge(&[a.clone(), b], LIMIT).unwrap().film;
+    assert_eq!((merged.spec().square, version(&a)), (4, 2));
+    assert_eq!(merged.pooled(), film(&job(4), &pass(), 2).pooled());
+    std::fs::create_dir(folder.path().join("alone")).unwrap();
+    let alone = render(&folder.path().join("alone"), &job(1), 2, 2);
+    assert_eq!(version(&alone), 1);
+    let text = merge(&[a, alone.clone()], LIMIT).unwrap_err().to_string();
+    assert!(text.contains("belongs to another job"), "{text}");
+    let header = read(&alone, LIMIT, |_| Ok(())).unwrap().0;
+    assert_eq!(header.film.square, 1);
+    assert!(!serde_json::to_string(&header.film).unwrap().contains("square"));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! From sums to planes of means and standard errors.
 
-use crate::stats::{ErrorSummary, PixelStats, t_quantile};
+use crate::stats::{ErrorSummary, PixelStats, Squares, SumError, squares::SquareStats, t_quantile};
 use crate::{ErrorMode, Film, PixelBounds};
 
 /// Side of the tiles over which errors are pooled when a pixel has too few samples for its own.
@@ -37,6 +37,11 @@ pub struct Developed {
     pub mean: Vec<Vec<f32>>,
     /// Standard errors, one plane for each of the leading channels that have errors; infinite when unknown.
     pub error: Vec<Vec<f32>>,
+    /// Side of the squares of pixels that have errors in common, see [`crate::FilmSpec::square`].
+    pub square: u32,
+    /// Standard errors of the means over these squares, at each of their pixels: planes as of `error`. Infinite where one of
+    /// the pixels does not know its own; no planes without replicates, and where pixels are independent.
+    pub square_error: Vec<Vec<f32>>,
     /// Luminance Y.
     pub y: Vec<f32>,
     /// Standard error of Y.
@@ -68,6 +73,25 @@ impl Developed {
         let p = self.bounds.index(x, y);
         Estimate { value: self.y[p], se: self.y_error[p], dof: self.dof[p] }
     }
+
+    /// Standard errors of a channel, from which those of sums over pixels follow.
+    pub fn squares(&self, channel: usize) -> Squares<'_> {
+        Squares {
+            window: self.bounds,
+            side: self.square,
+            pixel: &self.error[channel],
+            square: self.square_error.get(channel).map(Vec::as_slice),
+        }
+    }
+
+    /// Mean of a channel over an area of the window, and its error, by [`Squares::sum`].
+    pub fn mean_over(&self, channel: usize, area: PixelBounds) -> (f64, SumError) {
+        let area = area.intersection(&self.bounds);
+        let n = area.area() as f64;
+        let at = |(x, y)| f64::from(self.mean[channel][self.bounds.index(x, y)]);
+        let error = self.squares(channel).sum(area, |_| true, |p| f64::from(self.dof[p]));
+        (area.pixels().map(at).sum::<f64>() / n, error.scaled(1.0 / n))
+    }
 }
 
 impl Film {
@@ -85,6 +109,8 @@ impl Film {
             units,
             mean: wide.mean.iter().map(|m| narrow(m)).collect(),
             error: wide.variance.iter().map(|v| root(v)).collect(),
+            square: spec.square,
+            square_error: self.square_errors(&wide.pooled),
             y: narrow(&wide.y),
             y_error: root(&wide.y_variance),
             samples: pixels.map(|p| self.planes.count(p)).collect(),
@@ -99,6 +125,28 @@ impl Film {
             flagged: wide.flagged,
             pooled: wide.pooled,
         }
+    }
+
+    /// Errors of the means over squares. Those with a pixel whose error is pooled have too few samples for their own.
+    fn square_errors(&self, pooled: &[bool]) -> Vec<Vec<f32>> {
+        let spec = self.spec();
+        if spec.square == 1 || spec.mode == ErrorMode::Conservative {
+            return Vec::new();
+        }
+        let mut planes = vec![vec![f32::INFINITY; pooled.len()]; self.planes.layout.with_errors];
+        let mut stats = SquareStats::new(self);
+        for square in spec.bounds.tiles(spec.square) {
+            let members = || square.pixels().map(|(x, y)| spec.bounds.index(x, y));
+            if members().any(|p| pooled[p]) {
+                continue;
+            }
+            stats.load(square);
+            for (c, plane) in planes.iter_mut().enumerate() {
+                let se = (stats.covariance(c, c).sqrt() / square.area() as f64) as f32;
+                members().for_each(|p| plane[p] = se);
+            }
+        }
+        planes
     }
 
     /// Summary of the errors of Y: what the progress line shows.
@@ -168,7 +216,10 @@ impl Wide {
             if sparse.is_empty() {
                 continue;
             }
-            let dof: u32 = members.iter().map(|&p| self.dof[p]).sum();
+            // pixels of a square may err as one, and then count once
+            let squares = tile.tiles(film.spec().square);
+            let most = |s: PixelBounds| s.pixels().map(|(x, y)| self.dof[bounds.index(x, y)]).max();
+            let dof: u32 = squares.filter_map(most).sum();
             for plane in self.variance.iter_mut().chain([&mut self.y_variance]) {
                 let per_sample = pooled_variance(plane, &self.dof, &n, &members);
                 sparse.iter().for_each(|&p| plane[p] = per_sample / f64::from(n[p]));

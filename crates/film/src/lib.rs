@@ -49,5 +49,5 @@ pub use filter::PixelFilter;
 pub use guide::{Guide, SampleCounts};
 pub use patch::Patch;
 pub use spec::{ChannelGroup, ErrorMode, FilmSpec, Statistics, Weights};
-pub use stats::{ErrorSummary, Pooled};
+pub use stats::{ErrorSummary, Pooled, Squares, SumError};
 pub use work::{Pass, PixelBounds, WorkUnit};

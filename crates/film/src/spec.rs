@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{FilmError, PixelBounds};
+use crate::{FilmError, PixelBounds, develop::POOL_TILE};
 
 /// How standard errors are estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -90,6 +90,20 @@ pub struct FilmSpec {
     pub clamp: Option<f32>,
     /// The job's seed, reported beside bad samples.
     pub seed: u64,
+    /// Side of the squares of pixels whose samples of the same number share paths, so that they have errors in common; the
+    /// squares are `bounds.tiles(square)`. 1 where all pixels are independent. Set by whoever knows the pass.
+    #[serde(default = "alone", skip_serializing_if = "is_alone")]
+    pub square: u32,
+}
+
+/// The `square` of films that say nothing of it.
+const fn alone() -> u32 {
+    1
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+const fn is_alone(square: &u32) -> bool {
+    *square == 1
 }
 
 impl FilmSpec {
@@ -104,6 +118,7 @@ impl FilmSpec {
             weights: Weights::Unit,
             clamp: None,
             seed: 0,
+            square: alone(),
         }
     }
 
@@ -177,6 +192,9 @@ impl FilmSpec {
             return Err(invalid("crop", "a window inside the image", format!("{:?}", self.bounds)));
         }
         self.validate_channels()?;
+        if !(self.square.is_power_of_two() && self.square <= POOL_TILE) {
+            return Err(invalid("square", "1, 2, 4, 8 or 16 pixels", self.square.to_string()));
+        }
         match self.mode {
             ErrorMode::Replicated { replicates } if !(2..=64).contains(&replicates) => {
                 Err(invalid("replicates", "2 to 64", replicates.to_string()))
@@ -234,6 +252,8 @@ impl FilmSpec {
         let clamp = |s: &Self| s.clamp.map_or("off".into(), |c| c.to_string());
         note(self.clamp == other.clamp, "clamp", clamp(self), clamp(other));
         note(self.seed == other.seed, "seed", self.seed.to_string(), other.seed.to_string());
+        let square = |s: &Self| format!("squares of {0} x {0}", s.square);
+        note(self.square == other.square, "pixels that share paths", square(self), square(other));
         (!what.is_empty()).then(|| what.join("; "))
     }
 }

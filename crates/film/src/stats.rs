@@ -12,10 +12,12 @@ use crate::spec::Layout;
 use crate::{ErrorMode, FilmSpec};
 
 mod pooled;
+pub mod squares;
 mod student;
 mod summary;
 
 pub use pooled::Pooled;
+pub use squares::{Squares, SumError};
 pub use student::{t_quantile, t_tail};
 pub use summary::ErrorSummary;
 

@@ -52,6 +52,22 @@ impl PixelBounds {
         inner.x0 >= self.x0 && inner.y0 >= self.y0 && inner.x1 <= self.x1 && inner.y1 <= self.y1
     }
 
+    /// What both hold; empty when they do not meet.
+    pub const fn intersection(&self, other: &Self) -> Self {
+        const fn least(a: u32, b: u32) -> u32 {
+            if a < b { a } else { b }
+        }
+        const fn most(a: u32, b: u32) -> u32 {
+            if a > b { a } else { b }
+        }
+        Self {
+            x0: most(self.x0, other.x0),
+            y0: most(self.y0, other.y0),
+            x1: least(self.x1, other.x1),
+            y1: least(self.y1, other.y1),
+        }
+    }
+
     /// Row-major index of a pixel inside.
     #[inline(always)]
     pub const fn index(&self, x: u32, y: u32) -> usize {

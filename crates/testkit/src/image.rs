@@ -55,7 +55,8 @@ impl BlockTest {
 /// Compares two images on blocks of `size` x `size` pixels (the last row and column may be smaller).
 ///
 /// `t = (a - b) / sqrt(se_a^2 + se_b^2)` of the block means, with the degrees of freedom of Welch & Satterthwaite over
-/// the pixels. Pixels must be independent of each other.
+/// the pixels. Pixels must be independent of each other: where they share paths, take [`block_test_replicates`], with blocks
+/// of whole squares.
 pub fn block_test(a: ImageEstimate<'_>, b: ImageEstimate<'_>, size: usize) -> BlockTest {
     assert!(a.width == b.width && a.mean.len() == b.mean.len(), "images of the same size");
     let (columns, blocks) = blocks(a.width, a.mean.len(), size);

@@ -154,6 +154,7 @@ fn attributes(image: &Image) -> Vec<(String, String)> {
         ("seed", attribute::SEED),
         ("colour_space", attribute::SPACE),
         ("error_mode", attribute::ERROR_MODE),
+        ("pixels_share_errors", attribute::SQUARE),
         ("samples_per_pixel", attribute::SAMPLES),
         ("settings", attribute::SETTINGS),
     ];

@@ -11,7 +11,7 @@ use tyndall_files::image::{
     Channel, MetaValue, Pixels, SpectralLayout, SpectralUnit, Window, band_edges_nm, read_image,
     spectral_channel_name, spectral_channels,
 };
-use tyndall_film::{Developed, Film, PixelBounds};
+use tyndall_film::{Developed, Film, PixelBounds, Squares};
 use tyndall_spectral::{ColourSpace, SpaceName, cie::CIE_Y_INTEGRAL};
 
 /// Names of our own attributes.
@@ -30,6 +30,8 @@ pub mod attribute {
     pub const ERROR_MODE: &str = "tyndall:errorMode";
     /// Degrees of freedom of the standard errors.
     pub const FREEDOM: &str = "tyndall:degreesOfFreedom";
+    /// Side of the squares of pixels that share paths, and have errors in common; absent where pixels are independent.
+    pub const SQUARE: &str = "tyndall:pixelsShareErrors";
     /// Everything that the bits depend on, as `name: value`.
     pub const SETTINGS: &str = "tyndall:settings";
     /// In a picture: that and how it was denoised.
@@ -62,12 +64,18 @@ impl Image {
             frame.set(attribute::ERROR_MODE, film.spec().mode.name());
             frame.set(attribute::FREEDOM, median(&developed.dof) as i32);
             frame.set(attribute::SAMPLES, mean_samples(film));
+            if developed.square > 1 {
+                frame.set(attribute::SQUARE, developed.square as i32);
+            }
             frame
         };
         let values = planes.fill(frame(), &developed.mean)?;
         let mut errors = planes.fill(frame(), &developed.error)?;
         errors.set("comments", "standard errors of the channels of the same names; inf where unknown");
         statistics::add(&mut errors, developed)?;
+        if !developed.square_error.is_empty() {
+            statistics::add_squares(&mut errors, &planes.fill(frame(), &developed.square_error)?)?;
+        }
         Ok(Self { values, errors: Some(errors) })
     }
 
@@ -119,6 +127,26 @@ impl Image {
             Some(MetaValue::Int(n)) => u32::try_from(*n).ok(),
             _ => None,
         }
+    }
+
+    /// Side of the squares of pixels that have errors in common, cut from the upper left corner of the window; 1 where the
+    /// file says nothing of it.
+    pub fn square(&self) -> u32 {
+        match self.errors.as_ref().and_then(|e| e.meta.get(attribute::SQUARE)) {
+            Some(MetaValue::Int(n)) => u32::try_from(*n).map_or(1, |n| n.max(1)),
+            _ => 1,
+        }
+    }
+
+    /// Standard errors of a channel, from which those of sums over pixels follow; pixels count from the window's corner.
+    pub fn squares(&self, channel: &str) -> Option<Squares<'_>> {
+        let errors = self.errors.as_ref()?;
+        Some(Squares {
+            window: PixelBounds::new(0, 0, errors.width() as u32, errors.height() as u32),
+            side: self.square(),
+            pixel: errors.channel(channel)?,
+            square: errors.channel(&statistics::square_name(channel)),
+        })
     }
 
     /// Luminance Y of every pixel, in the unit of the image; `None` without R, G, B.

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use std::fs;
-use tyndall_film::FilmSpec;
+use tyndall_film::{ErrorMode, FilmSpec};
 
 /// Taken for granted where the system does not tell: 64 GiB.
 const UNKNOWN: u64 = 64 << 30;
@@ -35,8 +35,11 @@ pub fn needed(spec: &FilmSpec) -> u128 {
 
 /// Means and errors in f64, then in f32, then as channels of a file, with luminance, counts and flags.
 fn planes(spec: &FilmSpec) -> u128 {
+    let replicated = matches!(spec.mode, ErrorMode::Replicated { .. });
     let values = spec.channels() + spec.channels_with_errors();
-    u128::from(spec.bounds.area()) * (values as u128 * 16 + 64)
+    // errors of squares are never in f64
+    let squares = if spec.square > 1 && replicated { spec.channels_with_errors() } else { 0 };
+    u128::from(spec.bounds.area()) * (values as u128 * 16 + squares as u128 * 12 + 64)
 }
 
 /// Refuses a film that the memory cannot hold; nothing is allocated.
@@ -63,7 +66,6 @@ pub fn check(spec: &FilmSpec) -> Result<(), Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tyndall_film::ErrorMode;
 
     #[test]
     fn some_memory_is_left() {

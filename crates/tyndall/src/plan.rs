@@ -134,6 +134,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         isa: isa(options.dispatch)?,
     }
     .learning(loaded.film.resolution);
+    Arc::make_mut(&mut job.film).square = pass.shared_side();
     let integrator = loaded.integrator.name.clone();
     Ok(Plan { loaded, pass, job, range: options.range, spectral, notes, integrator, channels })
 }

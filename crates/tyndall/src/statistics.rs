@@ -13,6 +13,9 @@ pub const DOMINATED: &str = "statistics.dominated";
 /// 1 where the errors are those of the pixel's tile, because it has too few samples for its own.
 pub const POOLED: &str = "statistics.pooled";
 
+/// Layer of the standard errors of means over squares of pixels that have errors in common.
+const SQUARE: &str = "square.";
+
 /// All of them, in the order of tables.
 pub const NAMES: [&str; 4] = [SAMPLES, FREEDOM, DOMINATED, POOLED];
 
@@ -28,6 +31,27 @@ pub(crate) fn add(pixels: &mut Pixels, d: &Developed) -> Result<(), Error> {
         pixels.push(name, plane)?;
     }
     Ok(())
+}
+
+/// Adds the standard errors of means over squares, under the names of their channels in a layer of their own.
+///
+/// # Errors
+/// When they have another size.
+pub(crate) fn add_squares(pixels: &mut Pixels, squares: &Pixels) -> Result<(), Error> {
+    for channel in squares.channels() {
+        pixels.push(square_name(&channel.name), channel.data.clone())?;
+    }
+    Ok(())
+}
+
+/// Name of the plane that holds the standard errors of a channel's means over squares.
+pub(crate) fn square_name(channel: &str) -> String {
+    format!("{SQUARE}{channel}")
+}
+
+/// Whether a plane is one of these.
+pub(crate) fn is_of_squares(channel: &str) -> bool {
+    channel.starts_with(SQUARE)
 }
 
 /// Number of pixels that a plane marks; `None` where the file has no such plane.

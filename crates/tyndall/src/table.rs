@@ -17,6 +17,7 @@ use tyndall_files::{
     atomic::write_atomic,
     image::{Channel, MetaValue},
 };
+use tyndall_film::Squares;
 
 const JOB_LINE: &str = "# job: ";
 
@@ -37,7 +38,7 @@ pub fn write(path: &Path, image: &Image, rows: &Rows) -> Result<(), Error> {
 /// A channel, with its standard errors where they are known.
 struct Column<'i> {
     channel: &'i Channel,
-    errors: Option<&'i [f32]>,
+    errors: Option<Squares<'i>>,
     /// How pixels make up a region.
     join: Join,
 }
@@ -52,10 +53,9 @@ enum Join {
 
 /// Channels as people expect them, then what is known of the errors.
 fn columns(image: &Image) -> Vec<Column<'_>> {
-    let errors = |c: &Channel| image.errors.as_ref()?.channel(&c.name);
     let values = ordered(&image.values).into_iter().map(|channel| Column {
         channel,
-        errors: errors(channel),
+        errors: image.squares(&channel.name),
         join: Join::Mean,
     });
     let find = |name: &str| image.errors.as_ref()?.channels().iter().find(|c| c.name == name);
@@ -87,6 +87,9 @@ fn header(image: &Image, columns: &[Column<'_>], rows: &Rows, out: &mut impl Wri
             out,
             "# regions: means over the pixels from x0,y0 up to but not including x1,y1; statistics: sums"
         )?;
+        if image.square() > 1 {
+            writeln!(out, "# {}", shared(image))?;
+        }
     }
     let absolute = image.is_absolute();
     write!(out, "{}", rows.place())?;
@@ -97,6 +100,20 @@ fn header(image: &Image, columns: &[Column<'_>], rows: &Rows, out: &mut impl Wri
         }
     }
     writeln!(out)
+}
+
+/// What the errors of regions are where pixels share paths.
+fn shared(image: &Image) -> String {
+    let (n, window) = (image.square(), image.values.window());
+    let known = image
+        .errors
+        .as_ref()
+        .is_some_and(|e| e.channels().iter().any(|c| statistics::is_of_squares(&c.name)));
+    let bound = if known { "upper bounds where a region cuts one" } else { "upper bounds" };
+    format!(
+        "pixels of a square of {n} x {n}, counted from {},{}, share paths; errors of regions: {bound}",
+        window.x0, window.y0
+    )
 }
 
 /// Decimal commas of spectral names would split a cell without quotes (RFC 4180).

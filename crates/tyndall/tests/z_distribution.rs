@@ -3,6 +3,9 @@
 mod common;
 
 use common::{Bands, Run, judge::Family, scene, table::Table};
+use std::sync::Arc;
+use tyndall::{Options, Plan, Source, plan};
+use tyndall_film::ErrorMode;
 use tyndall_testkit::{Welford, distribution::normal_cdf, ks_test, z_max};
 
 const BANDS: Bands = Bands::new(8);
@@ -52,4 +55,39 @@ fn scores_of_a_hundred_seeds_are_normal() {
             assert!(spread.abs() < z_max(32), "row {row}: variance {}", w.variance());
         }
     }
+}
+
+/// Mean of G over the box of fog with its standard error, from one plan; `square` is what the film is told of its pixels.
+fn fog(plan: &mut Plan, seed: u64, square: u32) -> [f64; 2] {
+    plan.pass.seed = seed;
+    let film = Arc::make_mut(&mut plan.job.film);
+    (film.seed, film.square) = (seed, square);
+    let d = common::develop(plan);
+    let (mean, error) = d.mean_over(1, d.bounds);
+    [mean, error.variance.sqrt()]
+}
+
+/// Pixels of a square go on from each other's scatterings: the whole picture has the error of its squares.
+#[test]
+#[ignore = "80 seeds"]
+fn scores_of_pixels_that_share_paths_have_variance_one() {
+    let options = Options {
+        resolution: Some([12, 12]),
+        spp: Some(64),
+        errors: ErrorMode::REPLICATED,
+        ..Options::default()
+    };
+    let mut plan = plan(Source::BuiltIn, &options).expect("plans");
+    assert_eq!(plan.job.film.square, 4, "the box shares paths");
+    let mut spread = |square: u32| {
+        let all: Vec<[f64; 2]> = (1..=80).map(|seed| fog(&mut plan, seed, square)).collect();
+        let mean = all.iter().map(|[m, _]| m).sum::<f64>() / all.len() as f64;
+        let squares: Welford = all.iter().map(|[m, se]| ((m - mean) / se).powi(2)).collect();
+        squares.mean()
+    };
+    let (right, naive) = (spread(4), spread(1));
+    println!("mean square of scores: {right:.2} with squares, {naive:.2} without");
+    // 80 squares of about normal scores: their mean is known to 16 %
+    assert!((right - 1.0).abs() < 0.7, "{right}");
+    assert!(naive > right);
 }

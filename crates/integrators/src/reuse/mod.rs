@@ -45,6 +45,11 @@ impl PixelPass {
         let plain = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero);
         plain && self.layers.is_empty() && allowed(&self.settings) && possible(&self.scene)
     }
+
+    /// Side of the squares of pixels that have errors in common, for [`tyndall_film::FilmSpec::square`]: [`SIDE`] or 1.
+    pub fn shared_side(&self) -> u32 {
+        if self.shares_paths() { SIDE } else { 1 }
+    }
 }
 
 /// Densities of flights must be known in closed form, and must not depend on the path before.

@@ -21,6 +21,10 @@ pub struct Noisy {
     pub height: usize,
     /// Its channels, whose similarity is judged together.
     pub channels: Vec<Channel>,
+    /// Side of the squares of pixels whose noise is alike, counted from the first pixel; 1 where all pixels are independent.
+    pub square: u32,
+    /// Correlation of the noise of two pixels of a square.
+    pub correlation: f32,
 }
 
 impl Noisy {
@@ -51,17 +55,31 @@ impl Noisy {
             let variance = se.iter().map(|e| if e.is_finite() { e * e } else { f32::INFINITY });
             channels.push(Channel { mean: mean.to_vec(), variance: variance.collect() });
         }
-        Ok(Self { width, height, channels })
+        Ok(Self { width, height, channels, square: 1, correlation: 0.0 })
     }
 
-    /// Half the size: means of four pixels, whose noise is independent.
+    /// The same with noise that pixels of a square have in common.
+    #[must_use]
+    pub fn alike(self, square: u32, correlation: f32) -> Self {
+        Self { square, correlation: if square > 1 { correlation } else { 0.0 }, ..self }
+    }
+
+    /// Half the size: means of four pixels. Of variance v and correlation rho, they have the variance `v (1 + 3 rho) / 4` and
+    /// among each other the correlation `4 rho / (1 + 3 rho)`.
     pub(super) fn halved(&self) -> Self {
-        let size = [self.width, self.height];
-        let halve = |c: &Channel| Channel {
-            mean: pyramid::halve(&c.mean, size, 1),
-            variance: pyramid::halve(&c.variance, size, 2),
-        };
+        let (size, rho) = ([self.width, self.height], self.correlation);
         let [width, height] = pyramid::half_size(size);
-        Self { width, height, channels: self.channels.iter().map(halve).collect() }
+        let halve = |c: &Channel| {
+            let mut variance = pyramid::halve(&c.variance, size, 2);
+            if rho > 0.0 {
+                let errors: Vec<f32> = c.variance.iter().map(|v| v.sqrt()).collect();
+                let as_one = pyramid::halve(&errors, size, 1);
+                variance.iter_mut().zip(as_one).for_each(|(v, one)| *v += rho * (one * one - *v));
+            }
+            Channel { mean: pyramid::halve(&c.mean, size, 1), variance }
+        };
+        let channels = self.channels.iter().map(halve).collect();
+        let half = Self { width, height, channels, square: 1, correlation: 0.0 };
+        half.alike(self.square / 2, 4.0 * rho / (1.0 + 3.0 * rho))
     }
 }

@@ -45,6 +45,19 @@ fn rms(plane: &[f32], tint: f32) -> f64 {
     (plane.iter().enumerate().map(square).sum::<f64>() / plane.len() as f64).sqrt()
 }
 
+/// Two halvings of pixels that have half of their noise in common: `(1 + 15 / 2) / 16` of the variance is left.
+#[test]
+fn noise_that_squares_have_in_common_stays() {
+    let plane = (&[1.0f32; 64][..], &[2.0f32; 64][..]);
+    let noisy = Noisy::new(8, 8, &[plane]).expect("errors are known");
+    let alone = noisy.clone().halved().halved();
+    assert!(alone.channels[0].variance.iter().all(|v| *v == 4.0 / 16.0));
+    let quarter = noisy.alike(4, 0.5).halved().halved();
+    let expected = 4.0 * (1.0 + 15.0 * 0.5) / 16.0;
+    assert!(quarter.channels[0].variance.iter().all(|v| (v / expected - 1.0).abs() < 1e-6));
+    assert_eq!((quarter.square, quarter.correlation), (1, 0.0));
+}
+
 #[test]
 fn the_error_falls_and_edges_stay() {
     let noisy = noisy();

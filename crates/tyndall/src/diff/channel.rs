@@ -2,6 +2,7 @@
 
 use super::{ChannelDiff, DiffOptions, tests_of::test};
 use crate::{Image, statistics};
+use tyndall_film::{PixelBounds, Squares, SumError};
 
 /// Degrees of freedom of an image's errors, pixel by pixel where the file tells.
 struct Freedom<'i> {
@@ -25,8 +26,7 @@ impl<'i> Freedom<'i> {
 pub(super) struct Pair<'i> {
     pub a: &'i [f32],
     pub b: &'i [f32],
-    pub error_a: Option<&'i [f32]>,
-    pub error_b: Option<&'i [f32]>,
+    errors: [Option<Squares<'i>>; 2],
     freedom: [Freedom<'i>; 2],
     pub scale: f64,
     pub width: usize,
@@ -35,12 +35,10 @@ pub(super) struct Pair<'i> {
 impl<'i> Pair<'i> {
     fn new(name: &str, a: &'i Image, b: &'i Image, scale: f64) -> Self {
         let values = |i: &'i Image| i.values.channel(name).unwrap_or_default();
-        let errors = |i: &'i Image| i.errors.as_ref().and_then(|e| e.channel(name));
         Self {
             a: values(a),
             b: values(b),
-            error_a: errors(a),
-            error_b: errors(b),
+            errors: [a, b].map(|i| i.squares(name)),
             freedom: [Freedom::of(a), Freedom::of(b)],
             scale,
             width: a.values.width(),
@@ -53,19 +51,22 @@ impl<'i> Pair<'i> {
         (a.is_finite() && b.is_finite()).then_some((a, b))
     }
 
-    /// Variances of the two values, 0 for one whose errors are not known.
-    pub fn variances(&self, p: usize) -> [f64; 2] {
-        let square = |e: Option<&[f32]>, scale: f64| e.map_or(0.0, |e| (f64::from(e[p]) * scale).powi(2));
-        [square(self.error_a, self.scale), square(self.error_b, 1.0)]
-    }
-
-    /// Degrees of freedom of the two errors.
-    pub fn freedom(&self, p: usize) -> [f64; 2] {
-        [self.freedom[0].at(p), self.freedom[1].at(p)]
+    /// Error of the sum of differences over the pixels of an area that count; an image whose errors are not known has none.
+    pub fn error(&self, area: PixelBounds, counts: impl Fn(usize) -> bool) -> SumError {
+        let of = |i: usize, scale: f64| match &self.errors[i] {
+            Some(errors) => errors.sum(area, &counts, |p| self.freedom[i].at(p)).scaled(scale),
+            None => SumError::default(),
+        };
+        of(0, self.scale).and(of(1, 1.0))
     }
 
     pub fn has_errors(&self) -> bool {
-        self.error_a.is_some() || self.error_b.is_some()
+        self.errors.iter().any(Option::is_some)
+    }
+
+    /// All pixels, counted from the window's corner.
+    pub fn area(&self) -> PixelBounds {
+        PixelBounds::new(0, 0, self.width as u32, (self.a.len() / self.width.max(1)) as u32)
     }
 }
 

@@ -5,7 +5,9 @@
 //! - `MSE = mean((a - b)^2)`, `RMSE` its root, `bias = mean(a) / mean(b) - 1`;
 //! - `relMSE = mean((a - b)^2 / max(|b|, 0.01 mean(b))^2)`: dark pixels count relative to a hundredth of the mean.
 //!
-//! With standard errors `s`, the mean difference `d` over a block of pixels has variance `v = sum(s_a^2 + s_b^2) / n^2`, and
+//! With standard errors `s`, the mean difference `d` over a block of pixels has variance `v = sum(v_a + v_b) / n^2`, `v = s^2`
+//! for independent pixels; squares of pixels that share paths count as one, by their own error where it is known, else by
+//! its upper bound ([`tyndall_film::stats::squares`]). Blocks of whole squares are independent of each other.
 //! `t = d / sqrt(v)` follows Student's distribution with the degrees of freedom of Welch (1947) and Satterthwaite (1946),
 //! `(sum v_i)^2 / sum(v_i^2 / nu_i)`. Two tests a channel: the worst block, corrected for their number by Sidak (1967), and
 //! the whole image. The images differ when Holm's (1979) procedure over all tests rejects one at level alpha.

@@ -6,19 +6,62 @@ use tyndall_files::image::{MetaValue, Pixels};
 
 const SIDE: usize = 32;
 
+fn normal(rng: &mut Pcg32) -> f64 {
+    (0..12).map(|_| f64::from(rng.next_f32())).sum::<f64>() - 6.0
+}
+
+/// Mean and its standard error.
+fn mean_and_error(x: &[f64]) -> (f32, f32) {
+    let n = x.len() as f64;
+    let mean = x.iter().sum::<f64>() / n;
+    let variance = x.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0) / n;
+    (mean as f32, variance.sqrt() as f32)
+}
+
 /// Means of `n` normal samples a pixel around `truth`, with their standard errors as estimated.
 fn noisy(seed: u64, n: usize, truth: impl Fn(usize) -> f64) -> Image {
     let mut rng = Pcg32::new(seed, 1);
-    let mut normal = || (0..12).map(|_| f64::from(rng.next_f32())).sum::<f64>() - 6.0;
-    let (mut values, mut errors) = (Vec::new(), Vec::new());
-    for p in 0..SIDE * SIDE {
-        let x: Vec<f64> = (0..n).map(|_| truth(p) + 0.5 * normal()).collect();
-        let mean = x.iter().sum::<f64>() / n as f64;
-        let variance = x.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1) as f64 / n as f64;
-        values.push(mean as f32);
-        errors.push(variance.sqrt() as f32);
-    }
+    let pixel = |p| mean_and_error(&(0..n).map(|_| truth(p) + 0.5 * normal(&mut rng)).collect::<Vec<_>>());
+    let (values, errors) = (0..SIDE * SIDE).map(pixel).unzip();
     image(values, Some((errors, n as i32 - 1)))
+}
+
+/// What an image tells of pixels that share paths.
+#[derive(Clone, Copy, PartialEq)]
+enum Told {
+    Nothing,
+    Squares,
+    /// And the errors of their means.
+    Errors,
+}
+
+/// Means of 8 normal samples a pixel around 1; half of the variance is common to the pixels of a square of 4 x 4.
+fn shared(seed: u64, told: Told) -> Image {
+    const SQUARE: usize = 4;
+    let mut rng = Pcg32::new(seed, 1);
+    let squares: Vec<f64> = (0..8 * SIDE * SIDE / SQUARE / SQUARE).map(|_| normal(&mut rng)).collect();
+    let square = |p: usize| p / SIDE / SQUARE * (SIDE / SQUARE) + p % SIDE / SQUARE;
+    let mut sums = vec![0.0; squares.len()];
+    let mut pixel = |p: usize| {
+        let common = 8 * square(p);
+        let x: Vec<f64> =
+            (common..common + 8).map(|k| 1.0 + 0.35 * (squares[k] + normal(&mut rng))).collect();
+        x.iter().zip(&mut sums[common..]).for_each(|(x, sum)| *sum += x / (SQUARE * SQUARE) as f64);
+        mean_and_error(&x)
+    };
+    let (values, errors) = (0..SIDE * SIDE).map(&mut pixel).unzip();
+    let mut image = image(values, Some((errors, 7)));
+    let planes = image.errors.as_mut().expect("errors are there");
+    if told != Told::Nothing {
+        planes.set(crate::image::attribute::SQUARE, SQUARE as i32);
+    }
+    if told == Told::Errors {
+        let of = |p: usize| mean_and_error(&sums[8 * square(p)..][..8]).1;
+        planes
+            .push(statistics::square_name("Y"), (0..SIDE * SIDE).map(of).collect())
+            .expect("the right size");
+    }
+    image
 }
 
 fn image(values: Vec<f32>, errors: Option<(Vec<f32>, i32)>) -> Image {
@@ -47,6 +90,33 @@ fn equal_truths_agree_at_the_stated_rate() {
         .count();
     // Holm holds the rate at or below 5 %: more than 20 of 200 has a probability of 0.1 % under a rate of 5 %
     assert!(differ <= 20, "{differ} of {runs}");
+}
+
+/// Pixels that share paths: taken as independent they cry wolf; with the errors of squares, blocks and the whole image have
+/// the scores that they should; without, errors are upper bounds.
+#[test]
+fn squares_that_share_paths_count_as_one() {
+    let options = DiffOptions { alpha: 0.05, ..DiffOptions::default() };
+    let runs = 100;
+    let found = |told: Told| {
+        let (mut differ, mut t, mut rms) = (0, 0.0, 0.0);
+        for seed in 0..runs {
+            let d = diff(&shared(2 * seed, told), &shared(2 * seed + 1, told), &options).expect("comparable");
+            let tests = d.channels[0].tests.as_ref().expect("errors are known");
+            differ += u32::from(d.verdict == Verdict::Differ);
+            t += tests.t * tests.t / runs as f64;
+            rms += tests.rms_t * tests.rms_t / runs as f64;
+        }
+        (differ, t, rms)
+    };
+    // of 100 squared scores of the whole image the mean is known to 14 %; of 1600 of blocks, with 14 to 56 degrees of
+    // freedom in place of 56, to 4 %
+    let (differ, t, rms) = found(Told::Errors);
+    assert!(differ <= 13 && (t - 1.0).abs() < 0.6 && (rms - 1.0).abs() < 0.2, "{differ} {t} {rms}");
+    let (differ, t, rms) = found(Told::Squares);
+    assert!(differ <= 2 && t < 0.9 && (0.3..0.8).contains(&rms), "{differ} {t} {rms}");
+    let (differ, t, rms) = found(Told::Nothing);
+    assert!(differ > 50 && t > 4.0 && rms > 4.0, "{differ} {t} {rms}");
 }
 
 #[test]

@@ -1,37 +1,28 @@
 //! Tests of a channel: blocks and the whole image by t, several tests by Sidak and Holm.
 
 use super::{ChannelDiff, ChannelTests, channel::Pair};
-use tyndall_film::stats::t_tail;
+use tyndall_film::{PixelBounds, SumError, stats::t_tail};
 
 /// Sums over pixels that give a t.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Sums {
     difference: f64,
-    variance: f64,
-    /// `sum(v_i^2 / nu_i)`.
-    freedom: f64,
+    error: SumError,
     pixels: usize,
-    /// A pixel's error is unknown.
-    unknown: bool,
 }
 
 impl Sums {
-    fn add(&mut self, pair: &Pair<'_>, p: usize) {
-        let Some((a, b)) = pair.at(p) else { return };
-        let v = pair.variances(p);
-        self.unknown |= v.iter().any(|v| !v.is_finite());
-        self.pixels += 1;
-        self.difference += a - b;
-        self.variance += v[0] + v[1];
-        let freedom = pair.freedom(p);
-        self.freedom += v[0] * v[0] / freedom[0] + v[1] * v[1] / freedom[1];
+    /// Over the pixels of an area that count and are finite.
+    fn of(pair: &Pair<'_>, area: PixelBounds, counts: impl Fn(usize) -> bool) -> Self {
+        let index = |(x, y)| y as usize * pair.width + x as usize;
+        let members = area.pixels().map(index).filter(|&p| counts(p)).filter_map(|p| pair.at(p));
+        let (difference, pixels) = members.fold((0.0, 0), |(sum, n), (a, b)| (sum + (a - b), n + 1));
+        Self { difference, error: pair.error(area, |p| counts(p) && pair.at(p).is_some()), pixels }
     }
 
-    fn join(&mut self, other: &Self) {
-        self.difference += other.difference;
-        self.variance += other.variance;
-        self.freedom += other.freedom;
-        self.pixels += other.pixels;
+    /// Some pixels count, and all of their errors are known.
+    fn is_known(&self) -> bool {
+        self.pixels > 0 && self.error.variance.is_finite()
     }
 
     /// t and its two-sided probability.
@@ -39,32 +30,27 @@ impl Sums {
         if self.difference == 0.0 {
             return (0.0, 1.0);
         }
-        if self.variance == 0.0 {
+        if self.error.variance == 0.0 {
             return (f64::INFINITY.copysign(self.difference), 0.0);
         }
-        let t = self.difference / self.variance.sqrt();
-        let nu = (self.variance * self.variance / self.freedom).clamp(1.0, 1e6) as u32;
-        (t, t_tail(t, nu))
+        let t = self.difference / self.error.variance.sqrt();
+        (t, t_tail(t, self.error.dof().clamp(1.0, 1e6) as u32))
     }
 }
 
 /// `None` when no block's errors are known.
 pub(super) fn test(pair: &Pair<'_>, block: usize) -> Option<ChannelTests> {
-    let height = pair.a.len() / pair.width.max(1);
-    let mut all = Sums::default();
+    let mut known = vec![false; pair.a.len()];
     let mut blocks = Vec::new();
-    for y in (0..height).step_by(block) {
-        for x in (0..pair.width).step_by(block) {
-            let mut sums = Sums::default();
-            for row in y..(y + block).min(height) {
-                (x..(x + block).min(pair.width)).for_each(|column| sums.add(pair, row * pair.width + column));
-            }
-            if sums.pixels > 0 && !sums.unknown {
-                all.join(&sums);
-                blocks.push(([x, y], sums.t()));
-            }
+    for area in pair.area().tiles(u32::try_from(block).unwrap_or(u32::MAX)) {
+        let sums = Sums::of(pair, area, |_| true);
+        if sums.is_known() {
+            area.pixels().for_each(|(x, y)| known[y as usize * pair.width + x as usize] = true);
+            blocks.push(([area.x0 as usize, area.y0 as usize], sums.t()));
         }
     }
+    // not from the sums of the blocks, which are not independent where they cut squares
+    let all = Sums::of(pair, pair.area(), |p| known[p]);
     let &(worst_at, (worst_t, least_p)) = blocks.iter().max_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))?;
     let squares: f64 = blocks.iter().map(|(_, (t, _))| t * t).sum();
     let (t, p) = all.t();

@@ -33,13 +33,14 @@ pub fn difference(a: &Taken, b: &Taken) -> Difference {
     let (mut all, mut noise) = (Vec::new(), Vec::new());
     for by in (0..side).step_by(BLOCK) {
         for bx in (0..side).step_by(BLOCK) {
-            let mean = |image: &[[f64; 3]]| block(image, side, bx, by).0;
+            let mean = |image: &[[f64; 3]]| block(image, side, bx, by);
             let theirs = mean(&b.rgb);
             if space.xyz_from_rgb.apply(theirs)[1] > white {
                 continue;
             }
             all.push(delta_e_2000(in_lab(mean(&a.rgb)), in_lab(theirs)));
-            let (ea, eb) = (block(&a.error, side, bx, by).1, block(&b.error, side, bx, by).1);
+            let index = by / BLOCK * side.div_ceil(BLOCK) + bx / BLOCK;
+            let (ea, eb) = (a.block_error[index], b.block_error[index]);
             for draw in 0..DRAWS {
                 let key = mix64((by * side + bx) as u64) ^ u64::from(draw);
                 let moved =
@@ -60,17 +61,16 @@ fn normal(key: u64) -> f64 {
     (0..12).map(unit).sum::<f64>() - 6.0
 }
 
-/// Mean over a block, and the root of the sum of squares over the count: the mean's standard error where the entries are
-/// standard errors.
-fn block(image: &[[f64; 3]], side: usize, bx: usize, by: usize) -> ([f64; 3], [f64; 3]) {
-    let (mut sum, mut squares, mut count) = ([0.0; 3], [0.0; 3], 0.0);
+/// Mean over a block.
+fn block(image: &[[f64; 3]], side: usize, bx: usize, by: usize) -> [f64; 3] {
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
     for y in by..(by + BLOCK).min(side) {
         for rgb in &image[y * side + bx..y * side + (bx + BLOCK).min(side)] {
-            (0..3).for_each(|c| (sum[c], squares[c]) = (sum[c] + rgb[c], squares[c] + rgb[c] * rgb[c]));
+            (0..3).for_each(|c| sum[c] += rgb[c]);
             count += 1.0;
         }
     }
-    (sum.map(|v| v / count), squares.map(|v| v.sqrt() / count))
+    sum.map(|v| v / count)
 }
 
 #[cfg(test)]
@@ -90,7 +90,10 @@ mod tests {
             let pixels = u64::from(shot.side * shot.side);
             let value = |i: u64, c: u64| 0.5 + 0.05 * normal(seed * 1_000_003 + 3 * i + c);
             let rgb = (0..pixels).map(|i| [value(i, 0) * (1.0 + tint), value(i, 1), value(i, 2)]).collect();
-            Taken { shot, rgb, error: vec![[0.05; 3]; pixels as usize], seconds: 1.0 }
+            let blocks = (shot.side as usize).div_ceil(BLOCK).pow(2);
+            let (error, block_error) =
+                (vec![[0.05; 3]; pixels as usize], vec![[0.05 / BLOCK as f64; 3]; blocks]);
+            Taken { shot, rgb, error, block_error, seconds: 1.0 }
         };
         let same = difference(&taken(1, 0.0), &taken(2, 0.0));
         // 64 blocks: a mean of as many differences is known to some 8 %

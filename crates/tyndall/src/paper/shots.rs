@@ -2,6 +2,7 @@
 
 use super::{
     Effort, Paper, Samples,
+    colour::BLOCK,
     scenes::{RANGE, RGB_EDGES, Scene, path},
 };
 use crate::{Error, Options, RunOptions, Source, Spectral, plan, render};
@@ -42,6 +43,8 @@ pub struct Taken {
     pub rgb: Vec<[f64; 3]>,
     /// Their standard errors.
     pub error: Vec<[f64; 3]>,
+    /// Standard errors of their means over blocks of [`BLOCK`] x [`BLOCK`] pixels, row by row.
+    pub block_error: Vec<[f64; 3]>,
     /// Seconds it took, earlier runs included.
     pub seconds: f64,
 }
@@ -182,6 +185,7 @@ impl Shot {
         Ok(Taken {
             rgb: self.colours(&developed, false),
             error: self.colours(&developed, true),
+            block_error: self.block_errors(&developed),
             seconds,
             shot: self,
         })
@@ -202,9 +206,18 @@ impl Shot {
 
     fn colours(&self, d: &Developed, errors: bool) -> Vec<[f64; 3]> {
         let planes = if errors { &d.error } else { &d.mean };
+        (0..d.samples.len()).map(|p| self.order().map(|c| f64::from(planes[c][p]))).collect()
+    }
+
+    fn block_errors(&self, d: &Developed) -> Vec<[f64; 3]> {
+        let error = |block, c| d.mean_over(c, block).1.variance.sqrt();
+        d.bounds.tiles(BLOCK as u32).map(|block| self.order().map(|c| error(block, c))).collect()
+    }
+
+    /// The film's channels that make up R, G, B.
+    fn order(&self) -> [usize; 3] {
         // three bands follow the film's own R, G, B; the shortest wavelengths carry blue
-        let order = if self.scene == Scene::Rgb { [5, 4, 3] } else { [0, 1, 2] };
-        (0..d.samples.len()).map(|p| order.map(|c| f64::from(planes[c][p]))).collect()
+        if self.scene == Scene::Rgb { [5, 4, 3] } else { [0, 1, 2] }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::{
     Error, Image,
     image::attribute,
     page::{Axis, Chart, Series},
+    statistics,
 };
 use std::path::Path;
 use tyndall_files::image::{MetaValue, Pixels, spectral_channels};
@@ -53,8 +54,8 @@ pub fn pixel(path: &Path, x: u32, y: u32) -> Result<String, Error> {
 
 /// Wavelength and value of every spectral channel of the image itself.
 fn bands(pixels: &Pixels, at: usize) -> Vec<[f64; 2]> {
-    let mut points: Vec<[f64; 2]> =
-        spectral_channels(pixels).iter().map(|c| [c.lambda_nm, f64::from(c.channel.data[at])]).collect();
+    let own = spectral_channels(pixels).into_iter().filter(|c| !statistics::is_of_squares(&c.channel.name));
+    let mut points: Vec<[f64; 2]> = own.map(|c| [c.lambda_nm, f64::from(c.channel.data[at])]).collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     points
 }

@@ -4,6 +4,7 @@ use super::{Column, Join};
 use crate::Error;
 use std::io::{self, Write};
 use tyndall_files::image::Window;
+use tyndall_film::PixelBounds;
 
 /// Pixels from (x0, y0) up to but not including (x1, y1), counted in the whole image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,28 +109,39 @@ fn pixel(window: Window, columns: &[Column<'_>], p: usize, out: &mut impl Write)
     for Column { channel, errors, .. } in columns {
         write!(out, ",{}", channel.data[p])?;
         if let Some(se) = errors {
-            write!(out, ",{}", se[p])?;
+            write!(out, ",{}", se.pixel[p])?;
         }
     }
     writeln!(out)
 }
 
-/// Means over a region; pixels are independent, so the variances of a sum add up.
+/// Means over a region; squares of pixels are independent, so the variances of their sums add up ([`tyndall_film::Squares`]).
 fn region(window: Window, columns: &[Column<'_>], r: &Region, out: &mut impl Write) -> io::Result<()> {
     let pixels: Vec<usize> =
         (r.y0..r.y1).flat_map(|y| (r.x0..r.x1).filter_map(move |x| index(window, x, y))).collect();
     let n = pixels.len() as f64;
-    let sum = |plane: &[f32], f: fn(f64) -> f64| pixels.iter().map(|&p| f(f64::from(plane[p]))).sum::<f64>();
     write!(out, "{},{},{},{},{n}", r.x0, r.x1, r.y0, r.y1)?;
     for Column { channel, errors, join } in columns.iter().filter(|c| c.join != Join::None) {
-        let total = sum(&channel.data, |v| v);
+        let total: f64 = pixels.iter().map(|&p| f64::from(channel.data[p])).sum();
         match join {
             Join::Sum => write!(out, ",{total}")?,
             _ => write!(out, ",{}", (total / n) as f32)?,
         }
         if let Some(se) = errors {
-            write!(out, ",{}", (sum(se, |v| v * v).sqrt() / n) as f32)?;
+            let error = se.sum(area(window, r), |_| true, |_| 1.0);
+            write!(out, ",{}", (error.variance.sqrt() / n) as f32)?;
         }
     }
     writeln!(out)
+}
+
+/// A region inside the window, counted from the window's corner.
+fn area(window: Window, r: &Region) -> PixelBounds {
+    let from = |v: u32, corner: i32| (i64::from(v) - i64::from(corner)) as u32;
+    PixelBounds::new(
+        from(r.x0, window.x0),
+        from(r.y0, window.y0),
+        from(r.x1, window.x0),
+        from(r.y1, window.y0),
+    )
 }

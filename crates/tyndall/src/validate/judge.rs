@@ -98,7 +98,8 @@ pub fn judge(case: &Case, way: &Way, answers: &Answers, seconds: f64) -> Judged 
     }
 }
 
-/// Sums of the correlations of the noisy rows' scores, and of their squares without what chance adds to each.
+/// Sums of the correlations of the noisy rows' scores, and of their squares without what chance adds:
+/// `(nu rho^2 - 1) / (nu - 1)` has the mean 0 for independent rows and is 1 for equal ones.
 fn correlations(rows: &[Row], answers: &Answers) -> (f64, f64) {
     let noisy: Vec<usize> = (0..rows.len()).filter(|&i| rows[i].kind == Kind::Noisy).collect();
     let dof = f64::from(answers.pooled.dof);
@@ -107,10 +108,11 @@ fn correlations(rows: &[Row], answers: &Answers) -> (f64, f64) {
         for &b in &noisy {
             let rho = answers.pooled.covariance(a, b) / (rows[a].se * rows[b].se);
             sum += rho;
-            squares += if a == b { 1.0 } else { (rho * rho - 1.0 / dof).max(0.0) };
+            let square = (dof * rho * rho - 1.0) / (dof - 1.0).max(1.0);
+            squares += if a == b { 1.0 } else { square };
         }
     }
-    (sum.max(0.0), squares)
+    (sum.max(0.0), squares.max(noisy.len() as f64))
 }
 
 /// P(|T| >= |t|) of Student's distribution; 0 for what is not a number.

@@ -1,10 +1,14 @@
 //! Renders a variant and reduces it to a few means with errors.
 
 use crate::{scenes::SmallScene, variants::Variant};
-use std::path::Path;
-use tyndall::{Options, Source, integrators::pixel::PixelPass, plan};
+use std::{path::Path, sync::Arc};
+use tyndall::{
+    Options, Source,
+    integrators::{pixel::PixelPass, reuse::SIDE},
+    plan,
+};
 use tyndall_engine::Job;
-use tyndall_film::{Developed, ErrorMode, Film, Guide, Pass, Patch, WorkUnit};
+use tyndall_film::{Developed, ErrorMode, Film, Guide, Pass, Patch, PixelBounds, WorkUnit};
 use tyndall_testkit::{ALPHA, distribution::student_two_sided, sidak};
 
 /// Five bands of 94 nm, each of 16 wavelengths of a fixed set of 80.
@@ -21,7 +25,8 @@ pub struct Mean {
     pub dof: f64,
 }
 
-/// The means of R, G, B and the bands, over the whole picture and over its quarters.
+/// The means of R, G, B and the bands, over the whole picture and over four parts of it, each of whole squares of pixels that
+/// share paths.
 pub type Means = Vec<(String, Mean)>;
 
 /// The scene rendered in this way.
@@ -39,6 +44,7 @@ pub fn render(scene: &SmallScene, variant: &Variant, effort: u32, seed: u64) -> 
         .unwrap_or_else(|e| panic!("{}: {}: {e}", scene.name, variant.name));
     (variant.settings)(&mut plan.pass.settings);
     let pass = plan.pass.learning(plan.job.film.resolution);
+    Arc::make_mut(&mut plan.job.film).square = pass.shared_side();
     let film = film(&pass, &plan.job);
     assert!(film.diagnostics().is_clean(), "{}: {}: {:?}", scene.name, variant.name, film.diagnostics());
     regions(&film.develop())
@@ -53,39 +59,28 @@ fn film(pass: &PixelPass, job: &Job) -> Film {
     film
 }
 
-/// Whether a pixel in the right and the lower half (or not) belongs to a region.
-type Holds = fn(bool, bool) -> bool;
-
 fn regions(film: &Developed) -> Means {
-    let (w, h) = (film.bounds.width(), film.bounds.height());
-    let inside: [(&str, Holds); 5] = [
-        ("", |_, _| true),
-        (" upper left", |right, low| !right && !low),
-        (" upper right", |right, low| right && !low),
-        (" lower left", |right, low| !right && low),
-        (" lower right", |right, low| right && low),
+    let all = film.bounds;
+    let half = |length: u32| (length / 2).next_multiple_of(SIDE);
+    let middle = [all.x0 + half(all.width()), all.y0 + half(all.height())];
+    let (left, right) = (PixelBounds { x1: middle[0], ..all }, PixelBounds { x0: middle[0], ..all });
+    let (upper, lower) = (PixelBounds { y1: middle[1], ..all }, PixelBounds { y0: middle[1], ..all });
+    let inside = [
+        ("", all),
+        (" upper left", upper.intersection(&left)),
+        (" upper right", upper.intersection(&right)),
+        (" lower left", lower.intersection(&left)),
+        (" lower right", lower.intersection(&right)),
     ];
     let mut out = Means::new();
     for (c, name) in film.names.iter().enumerate() {
-        for (region, holds) in inside {
-            let pixels = (0..w * h).filter(|i| holds(i % w >= w / 2, i / w >= h / 2)).map(|i| i as usize);
-            out.push((format!("{name}{region}"), mean(film, c, pixels)));
+        for (region, area) in inside {
+            let (value, error) = film.mean_over(c, area);
+            let mean = Mean { value, variance: error.variance, dof: error.dof() };
+            out.push((format!("{name}{region}"), mean));
         }
     }
     out
-}
-
-/// Pixels are independent: their variances add up, with the degrees of freedom of Welch and Satterthwaite.
-fn mean(film: &Developed, channel: usize, pixels: impl Iterator<Item = usize>) -> Mean {
-    let (mut n, mut sum, mut variance, mut spread) = (0.0, 0.0, 0.0, 0.0);
-    for i in pixels {
-        let v = f64::from(film.error[channel][i]).powi(2);
-        n += 1.0;
-        sum += f64::from(film.mean[channel][i]);
-        variance += v;
-        spread += v * v / f64::from(film.dof[i]);
-    }
-    Mean { value: sum / n, variance: variance / (n * n), dof: variance * variance / spread }
 }
 
 impl Mean {

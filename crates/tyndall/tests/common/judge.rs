@@ -9,6 +9,8 @@ use tyndall_testkit::{
 
 /// Rounding of a path's products of f32, relative to the answer.
 const ROUNDING: f64 = 1e-6;
+/// Degrees of freedom beyond which Student's law is the normal one.
+const MANY: f64 = 1e6;
 
 /// A mean with its standard error.
 #[derive(Clone, Copy, Debug)]
@@ -25,16 +27,13 @@ impl Estimate {
     }
 }
 
-/// The mean over all pixels of every channel; pixels have independent replicates.
+/// The mean over all pixels of every channel that has errors.
 pub fn pooled(d: &Developed) -> Vec<Estimate> {
-    let n = d.samples.len() as f64;
-    let dof: u32 = d.dof.iter().sum();
-    let one = |(m, e): (&Vec<f32>, &Vec<f32>)| Estimate {
-        mean: m.iter().map(|&v| f64::from(v)).sum::<f64>() / n,
-        se: e.iter().map(|&v| f64::from(v).powi(2)).sum::<f64>().sqrt() / n,
-        dof: f64::from(dof),
+    let one = |channel: usize| {
+        let (mean, error) = d.mean_over(channel, d.bounds);
+        Estimate { mean, se: error.variance.sqrt(), dof: error.dof().min(MANY) }
     };
-    d.mean.iter().zip(&d.error).map(one).collect()
+    (0..d.error.len()).map(one).collect()
 }
 
 /// Comparisons that share one error probability.
