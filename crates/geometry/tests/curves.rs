@@ -125,3 +125,31 @@ fn transforms_carry_curves_along() {
     }
     assert!(hits > 1500, "{hits}");
 }
+
+/// A ray that leaves starts off the band along its normal, however close to a coordinate plane that is: a strip just
+/// above a floor does not throw its rays below the floor.
+#[test]
+fn rays_leave_along_the_normal() {
+    let points = [[-1.0, 0.15, 0.0], [-0.3, 0.15, 0.1], [0.4, 0.15, 0.1], [1.0, 0.15, 0.0]].map(Vec3::from);
+    let normals = [vec3(0.0, 0.0, 1.0); 2];
+    let strip = CurveSegment { points, width: [0.2; 2], normals };
+    let turned = Transform::rotate(45.0, [0.0, 1.0, 0.0]).unwrap();
+    for to_world in [Transform::IDENTITY, turned] {
+        let band = Curves::new(to_world, CurveKind::Flat, vec![strip], 1).unwrap();
+        let a = build(vec![Shape::Curves(band).into()]);
+        let mut rng = Rng::new(3);
+        for _ in 0..200 {
+            // level but for a hair's breadth, so that a small part of the normal points down
+            let o = to_world.point(vec3(rng.unit() - 0.5, 0.16, 3.0));
+            let d = to_world.vector(vec3(0.02 * (rng.unit() - 0.5), 1e-3, -1.0)).normalize();
+            let ray = Ray::new(o, d);
+            let hit = a.intersect(&ray).expect("the strip is wide");
+            let s = a.surface(&ray, &hit);
+            let out = s.spawn(-d).o;
+            assert!(out.y > 0.1, "{out:?} from {:?}", s.p);
+            let off = (out - s.p).length();
+            assert!((0.199..0.201).contains(&off), "{off}");
+            assert!((out - s.p).normalize().dot(-d) > 0.99);
+        }
+    }
+}

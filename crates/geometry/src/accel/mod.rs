@@ -307,7 +307,7 @@ impl Accel {
 
 /// Rounds a world-space surface.
 fn finish(s: LocalSurface, time: f32) -> SurfacePoint {
-    let (p, rounding) = Rounding::of(s.p, s.noise);
+    let (p, rounding) = Rounding::of(s.p, s.noise + s.ng.abs() * s.lift);
     let uv = vec2(s.uv[0] as f32, s.uv[1] as f32);
     let (ng, ns) = (s.ng.round(), s.ns.round());
     SurfacePoint { p, rounding, ng, ns, dpdu: s.dpdu.round(), dpdv: s.dpdv.round(), uv, time }
@@ -315,10 +315,12 @@ fn finish(s: LocalSurface, time: f32) -> SurfacePoint {
 
 /// An object's surface in the world.
 fn place(s: &LocalSurface, to_world: &Transform) -> LocalSurface {
+    let ng = to_world.normal64(s.ng).normalize();
     LocalSurface {
         p: to_world.point64(s.p),
         noise: to_world.point_noise(s.p) + to_world.spread(s.noise),
-        ng: to_world.normal64(s.ng).normalize(),
+        lift: to_world.vector64(s.ng * s.lift).length(),
+        ng,
         ns: to_world.normal64(s.ns).normalize(),
         dpdu: to_world.vector64(s.dpdu),
         dpdv: to_world.vector64(s.dpdv),

@@ -127,7 +127,7 @@ impl BilinearMesh {
         if !self.uv.is_empty() {
             ([dpdu, dpdv], uv) = self.textured(prim, u, v, [dpdu, dpdv]);
         }
-        LocalSurface { p, noise, ng, ns, dpdu, dpdv, uv }
+        LocalSurface { p, noise, lift: 0.0, ng, ns, dpdu, dpdv, uv }
     }
 
     fn shading_normal(&self, prim: u32, u: f64, v: f64, reverse: bool) -> Option<DVec3> {

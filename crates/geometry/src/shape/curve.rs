@@ -3,8 +3,8 @@
 //!
 //! A ray is met in a frame that looks along it: the curve is halved until its pieces are nearly straight, then the
 //! distance from the axis decides (Nakamaru & Ohno 2002, *Ray tracing for curves primitive*, with pbrt's end tests). `u`
-//! runs along the curve, `v` across it. Hit points carry the width as the bound of their error, since a band faces
-//! each ray in its own plane: a ray that leaves starts off the band.
+//! runs along the curve, `v` across it. A band faces each ray in its own plane, so a ray that leaves starts off it, by the
+//! width along the normal.
 
 use super::{LocalSurface, PrimHit, ShapeGroup, any_tangents, check_coordinates, lerp};
 use crate::dvec::{DVec3, dvec3};
@@ -146,12 +146,13 @@ impl Curves {
         };
         let (across, n) = self.across(segment, &met, along, ld);
         let to_world = &self.to_world;
+        let lift = to_world.vector64(n * met.width).length();
         let n = to_world.normal64(n).normalize();
         let n = if group.flips_normal() { -n } else { n };
-        let off = dvec3(1.0, 1.0, 1.0) * met.width;
         LocalSurface {
             p: to_world.point64(lo + ld * met.t),
-            noise: to_world.spread(off),
+            noise: DVec3::default(),
+            lift,
             ng: n,
             ns: n,
             dpdu: to_world.vector64(along),

@@ -94,6 +94,7 @@ impl Cylinder {
         LocalSurface {
             p: t.point64(q),
             noise: (t.point_noise(q) + t.spread(rounding)) * 16.0,
+            lift: 0.0,
             ng: n,
             ns: n,
             dpdu: t.vector64(dvec3(-q.y, q.x, 0.0) * self.phi_max),

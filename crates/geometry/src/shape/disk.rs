@@ -87,7 +87,7 @@ impl Disk {
             any_tangents(n)
         };
         let uv = [azimuth(q) / self.phi_max, (self.radius - r) / width];
-        LocalSurface { p: t.point64(q), noise: self.noise(q), ng: n, ns: n, dpdu, dpdv, uv }
+        LocalSurface { p: t.point64(q), noise: self.noise(q), lift: 0.0, ng: n, ns: n, dpdu, dpdv, uv }
     }
 
     /// Rounding of the map, there and back; none along an axis normal to the disk in which the map is exact.

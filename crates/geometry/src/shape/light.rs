@@ -20,7 +20,7 @@ impl LocalSurface {
     fn nowhere() -> Self {
         let (zero, up) = (DVec3::default(), dvec3(0.0, 0.0, 1.0));
         let (x, y) = (dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0));
-        Self { p: zero, noise: zero, ng: up, ns: up, dpdu: x, dpdv: y, uv: [0.0; 2] }
+        Self { p: zero, noise: zero, lift: 0.0, ng: up, ns: up, dpdu: x, dpdv: y, uv: [0.0; 2] }
     }
 
     /// This world-space point as a sample.

@@ -129,6 +129,8 @@ pub(crate) struct LocalSurface {
     pub p: DVec3,
     /// Bound on the error of `p` per axis.
     pub noise: DVec3,
+    /// How far along its normal a ray that leaves starts, for bodies that are drawn as bands.
+    pub lift: f64,
     /// Unit geometric normal, oriented.
     pub ng: DVec3,
     /// Unit shading normal.

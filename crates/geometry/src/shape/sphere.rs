@@ -159,6 +159,7 @@ impl Sphere {
         LocalSurface {
             p: t.point64(q),
             noise,
+            lift: 0.0,
             ng: n,
             ns: n,
             dpdu: t.vector64(dpdu),

@@ -143,7 +143,7 @@ impl TriangleMesh {
         let at = |k: usize| b[0] * uv[0][k] + b[1] * uv[1][k] + b[2] * uv[2][k];
         let s = if self.s.is_empty() { DVec3::default() } else { self.interpolate(&self.s, prim, b) };
         let dpdu = if s.length_squared() > 0.0 { s } else { dpdu };
-        LocalSurface { p, noise, ng, ns, dpdu, dpdv, uv: [at(0), at(1)] }
+        LocalSurface { p, noise, lift: 0.0, ng, ns, dpdu, dpdv, uv: [at(0), at(1)] }
     }
 }
 
