@@ -12,10 +12,7 @@ use tyndall_film::{Guide, Patch, PixelBounds, WorkUnit};
 use tyndall_geometry::Ray;
 use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::{
-    sampler::PathSampler,
-    scene::{BOUNDARY, OPAQUE},
-};
+use tyndall_transport::{sampler::PathSampler, scene::Obstacles};
 
 /// A pixel's path.
 struct Member<'s, const N: usize> {
@@ -194,15 +191,15 @@ impl PixelPass {
                 aims[i] = Some(aim);
             }
         }
-        let obstacles = self.scene.accel.occluded_fan(&fan[..n], OPAQUE, BOUNDARY);
+        let mut obstacles = [Obstacles { blocked: true, boundary: false }; MEMBERS];
+        self.scene.obstacles_fan(&fan[..n], &mut obstacles[..n]);
         let (mut company, mut n) = (Company::empty(), 0);
         for i in 0..MEMBERS {
             if i == k {
                 company.join(i, shared.own_link(&member.walk));
             } else if let (Some(aim), Some(Member { from: Some((from, beta)), .. })) = (&aims[i], &members[i])
             {
-                let of = |rays: u16| rays >> n & 1 != 0;
-                let (blocked, boundary) = (of(obstacles.blocked), of(obstacles.noted));
+                let Obstacles { blocked, boundary } = obstacles[n];
                 n += 1;
                 if blocked {
                     continue;
