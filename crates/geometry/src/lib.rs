@@ -19,7 +19,7 @@ pub mod shape;
 pub mod surface;
 pub mod transform;
 
-pub use accel::{Accel, BuildOptions, BuildStats, Dispatch, Fan, Hit, InstanceDesc, NO_INSTANCE};
+pub use accel::{Accel, BuildOptions, BuildStats, Dispatch, Fan, Hit, InstanceDesc, NO_INSTANCE, Notes};
 pub use bounds::Bounds3;
 pub use error::GeometryError;
 pub use frame::Frame;

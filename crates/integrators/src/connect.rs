@@ -132,7 +132,7 @@ fn transmittance<const N: usize>(
         return Spectrum::ZERO;
     }
     loop {
-        let hit = if obstacles.boundary { scene.next_boundary(&ray) } else { None };
+        let hit = if !obstacles.boundaries.is_empty() { scene.next_boundary(&ray) } else { None };
         let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
         let sigma = sigma_t(medium);
         // a transparent medium stays so over an unbounded way

@@ -117,6 +117,8 @@ pub struct PixelPass {
     pub filter: PixelFilter,
     /// Layers beside the image.
     pub layers: Layers,
+    /// Pixels of the whole image, of which the film may be a part.
+    pub resolution: [u32; 2],
     /// The job's seed.
     pub seed: u64,
     /// Independent nets that a pixel's samples are dealt to.

@@ -2,9 +2,9 @@
 
 use crate::{medium::Inside, settings::Settings, tracking};
 use tyndall_base::Vec3;
-use tyndall_geometry::Ray;
+use tyndall_geometry::{Hit, Notes, Ray};
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::{MediumId, Scene, light::Target, sampler::PathSampler};
+use tyndall_transport::{MediumId, Scene, light::Target, media::Medium, sampler::PathSampler};
 
 /// The estimate of transmittance along a shadow ray, with what it does to the densities of the techniques.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +24,16 @@ impl<const N: usize> Shadow<N> {
     #[inline(always)]
     pub fn open(end: MediumId) -> Self {
         Self { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE, end }
+    }
+
+    /// Passes a homogeneous medium, with its exact transmittance.
+    #[inline(always)]
+    fn attenuate(&mut self, inside: &Inside<'_, N>, distance: f32, settings: &Settings) {
+        let t = inside.transmittance(distance);
+        self.t *= t;
+        if !inside.only_absorbs(settings) {
+            self.r_u *= t;
+        }
     }
 }
 
@@ -64,22 +74,30 @@ pub fn shadow<const N: usize>(
     if obstacles.blocked {
         return None;
     }
-    past(scene, settings, ray, obstacles.boundary, start, end, w, sampler)
+    past(scene, settings, ray, obstacles.boundaries, start, end, w, sampler)
 }
 
-/// The same along a ray to `end` that nothing blocks; `boundary`: whether it crosses one.
+/// The same along a ray to `end` that nothing blocks, with the boundaries that it crosses.
 #[expect(clippy::too_many_arguments, reason = "the state of a path and of a ray")]
 #[inline(always)]
 pub fn past<const N: usize>(
     scene: &Scene,
     settings: &Settings,
     mut ray: Ray,
-    boundary: bool,
+    mut boundaries: Notes,
     start: Place<'_, '_, N>,
     end: End,
     w: &Wavelengths<N>,
     sampler: &mut PathSampler,
 ) -> Option<Shadow<N>> {
+    let boundary = !boundaries.is_empty();
+    if settings.exact_transmittance
+        && boundary
+        && let Some(hits) = boundaries.in_order()
+        && let Some(s) = through(scene, settings, &ray, hits, start, w)
+    {
+        return Some(s);
+    }
     let mut s = Shadow::open(start.medium);
     let mut inside = start.inside.copied();
     loop {
@@ -100,6 +118,39 @@ pub fn past<const N: usize>(
     }
 }
 
+/// Transmittance in closed form through boundaries that lie apart; `None` where some medium on the way has none.
+#[inline(always)]
+fn through<const N: usize>(
+    scene: &Scene,
+    settings: &Settings,
+    ray: &Ray,
+    hits: &[Hit],
+    start: Place<'_, '_, N>,
+    w: &Wavelengths<N>,
+) -> Option<Shadow<N>> {
+    let mut s = Shadow::open(start.medium);
+    let mut inside = start.inside.copied();
+    let mut from = 0.0;
+    for k in 0..=hits.len() {
+        let to = if k < hits.len() { hits[k].t } else { ray.t_max };
+        if let Some(inside) = &inside {
+            if inside.varying.is_some() {
+                return None;
+            }
+            s.attenuate(inside, to - from, settings);
+        }
+        if k < hits.len() {
+            s.end = scene.medium_behind(ray, &hits[k], s.end);
+            if matches!(scene.medium(s.end), Some(Medium::Painted(_))) {
+                return None;
+            }
+            inside = Inside::of(scene, s.end, w);
+            from = to;
+        }
+    }
+    Some(s)
+}
+
 /// The remaining ray; `None` when nothing remains.
 #[inline(always)]
 fn towards(o: Vec3, end: &End, time: f32) -> Option<Ray> {
@@ -118,11 +169,7 @@ fn attenuate<const N: usize>(
     sampler: &mut PathSampler,
 ) -> Option<()> {
     if settings.exact_transmittance {
-        let t = inside.transmittance(distance);
-        s.t *= t;
-        if !inside.only_absorbs(settings) {
-            s.r_u *= t;
-        }
+        s.attenuate(inside, distance, settings);
         return Some(());
     }
     // a free flight at the hero's wavelength that gets through or does not

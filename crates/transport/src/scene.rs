@@ -13,7 +13,7 @@ use tyndall_base::{
     Vec3,
     hash::{hash3, hash4, to_unit_f32},
 };
-use tyndall_geometry::{Accel, Hit, MASK_ALL, Ray, SurfacePoint};
+use tyndall_geometry::{Accel, Hit, MASK_ALL, Notes, Ray, SurfacePoint};
 use tyndall_spectral::Emission;
 
 /// Mask of shapes that stop light or bend it.
@@ -85,12 +85,17 @@ pub struct Interaction<'s> {
 }
 
 /// What lies on a shadow ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Obstacles {
     /// A surface with a material.
     pub blocked: bool,
-    /// A boundary without one; complete only where nothing blocks.
-    pub boundary: bool,
+    /// Boundaries without one; complete only where nothing blocks.
+    pub boundaries: Notes,
+}
+
+impl Obstacles {
+    /// Something that blocks.
+    pub const BLOCKED: Self = Self { blocked: true, boundaries: Notes::NONE };
 }
 
 impl Scene {
@@ -144,14 +149,14 @@ impl Scene {
     /// Whether a surface with a material lies on `ray`, and whether a boundary without one does.
     #[inline(always)]
     pub fn obstacles(&self, ray: &Ray) -> Obstacles {
-        let mut boundary = false;
+        let mut boundaries = Notes::NONE;
         if !self.has_boundaries {
             let blocked = if self.has_alpha {
                 self.accel.occluded_filtered(ray, OPAQUE, |hit| self.sees(ray, hit))
             } else {
                 self.accel.occluded_masked(ray, OPAQUE)
             };
-            return Obstacles { blocked, boundary };
+            return Obstacles { blocked, boundaries };
         }
         // one walk answers both: it ends at the first material and notes every boundary on its way
         let blocked = self.accel.occluded_filtered(ray, OPAQUE | BOUNDARY, |hit| {
@@ -159,10 +164,12 @@ impl Scene {
                 return false;
             }
             let passes = self.shapes[hit.shape as usize].material.is_interface();
-            boundary |= passes;
+            if passes {
+                boundaries.push(*hit);
+            }
             !passes
         });
-        Obstacles { blocked, boundary }
+        Obstacles { blocked, boundaries }
     }
 
     /// [`Scene::obstacles`] of up to 16 rays of one time, written to `out` in their order: much faster than one by one for
@@ -181,7 +188,7 @@ impl Scene {
         let noted = if self.has_boundaries { BOUNDARY } else { 0 };
         let fan = self.accel.occluded_fan(rays, OPAQUE, noted);
         for i in 0..rays.len() {
-            out[i] = Obstacles { blocked: fan.blocked >> i & 1 != 0, boundary: fan.noted >> i & 1 != 0 };
+            out[i] = Obstacles { blocked: fan.blocked >> i & 1 != 0, boundaries: fan.noted[i] };
         }
     }
 
@@ -242,6 +249,16 @@ impl Scene {
         id
     }
 
+    /// The medium behind `hit` for a ray that came through `current`.
+    #[inline(always)]
+    pub fn medium_behind(&self, ray: &Ray, hit: &Hit, current: MediumId) -> MediumId {
+        let binding = &self.shapes[hit.shape as usize];
+        if binding.boundary.is_none() {
+            return current;
+        }
+        binding.medium_beyond(self.accel.leaves_outward(ray, hit), current)
+    }
+
     /// The medium `id`, or `None` for vacuum.
     #[inline(always)]
     pub fn medium(&self, id: MediumId) -> Option<&Medium> {
@@ -253,9 +270,17 @@ impl Interaction<'_> {
     /// The medium that a ray leaving along `d` travels in; `current` is the one it came in.
     #[inline(always)]
     pub fn medium_towards(&self, d: Vec3, current: MediumId) -> MediumId {
-        match self.binding.boundary {
+        self.binding.medium_beyond(d.dot(self.surface.ng) > 0.0, current)
+    }
+}
+
+impl ShapeBinding {
+    /// The medium of a ray that leaves the shape on the side of its normal, if `outward`, or on the other one.
+    #[inline(always)]
+    fn medium_beyond(&self, outward: bool, current: MediumId) -> MediumId {
+        match self.boundary {
             None => current,
-            Some(b) if d.dot(self.surface.ng) > 0.0 => b.outside,
+            Some(b) if outward => b.outside,
             Some(b) => b.inside,
         }
     }

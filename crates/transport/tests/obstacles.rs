@@ -45,13 +45,18 @@ fn a_fan_meets_what_its_rays_meet() {
         for i in 0..2000 {
             let (x, y) = (point(i), point(7 * i + 3));
             let rays: Vec<_> = (0..=i % 16).filter_map(|k| segment(x + point(k) * 0.1, y, 0.0)).collect();
-            let mut fan = [Obstacles { blocked: true, boundary: true }; 16];
+            let mut fan = [Obstacles::BLOCKED; 16];
             scene.obstacles_fan(&rays, &mut fan);
             for (ray, got) in rays.iter().zip(fan) {
                 let want = scene.obstacles(ray);
                 assert_eq!(got.blocked, want.blocked);
-                assert!(want.blocked || got.boundary == want.boundary);
-                seen[usize::from(want.blocked) + 2 * usize::from(want.boundary)] += 1;
+                let (mut ours, mut theirs) = (got.boundaries, want.boundaries);
+                let distances = |hits: &[tyndall_geometry::Hit]| hits.iter().map(|h| h.t).collect::<Vec<_>>();
+                assert!(
+                    want.blocked || ours.in_order().map(distances) == theirs.in_order().map(distances),
+                    "{got:?} {want:?}"
+                );
+                seen[usize::from(want.blocked) + 2 * usize::from(!want.boundaries.is_empty())] += 1;
             }
         }
         assert!(seen[0] > 500 && seen[1] > 500 && (!has_boundaries || seen[2] > 500), "{seen:?} say little");

@@ -129,6 +129,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         channels: channels.clone(),
         filter: loaded.filter.clone(),
         layers,
+        resolution: loaded.film.resolution,
         seed,
         replicates,
         isa: isa(options.dispatch)?,

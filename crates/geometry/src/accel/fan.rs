@@ -11,19 +11,27 @@ use super::lanes::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::lanes_avx2::Avx2;
 use super::node::{Block, Bvh, Child, Node};
+use super::notes::Notes;
 use super::query::{Kernel, LocalRay, Query, any};
 use super::traverse::{Stack, WORLD, prefetch};
+use super::triangle::distance;
 use super::{Accel, Isa};
 use crate::{Hit, Ray};
 use std::mem::MaybeUninit;
 
 /// What lies on the rays of a fan; bit i is for ray i.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fan {
     /// Rays on which a primitive lies that blocks.
     pub blocked: u16,
-    /// Rays on which one lies that was to be noted; complete only for rays that are not blocked.
-    pub noted: u16,
+    /// Where primitives lie on each ray that were to be noted; complete only for rays that are not blocked.
+    pub noted: [Notes; MOST],
+}
+
+impl Default for Fan {
+    fn default() -> Self {
+        Self { blocked: 0, noted: [Notes::NONE; MOST] }
+    }
 }
 
 /// Most rays of a fan.
@@ -80,7 +88,9 @@ impl Ask<'_> {
     #[inline(always)]
     fn blocks(&self, hit: &Hit, i: usize, fan: &mut Fan) -> bool {
         let mask = self.accel.groups[hit.shape as usize].mask;
-        fan.noted |= u16::from(mask & self.noted != 0) << i;
+        if mask & self.noted != 0 {
+            fan.noted[i].push(*hit);
+        }
         mask & self.blocking != 0
     }
 
@@ -237,14 +247,10 @@ fn triangle<L: Kernel>(
 ) {
     let mask = block.mask[i] as u8;
     let (blocks, notes) = (mask & ask.blocking != 0, mask & ask.noted != 0);
-    let closed = if blocks {
-        fan.blocked
-    } else if notes {
-        fan.blocked | fan.noted
-    } else {
+    if !(blocks || notes) {
         return;
-    };
-    let open = active & !u32::from(closed);
+    }
+    let open = active & !u32::from(fan.blocked);
     let halves = [open & 0xff, open >> GROUP];
     let (p, q) = (groups[0].passes(l, block, i, halves[0]), groups[1].passes(l, block, i, halves[1]));
     if p | q == 0 {
@@ -261,8 +267,13 @@ fn triangle<L: Kernel>(
     if blocks {
         fan.blocked |= met as u16;
     }
-    if notes {
-        fan.noted |= met as u16;
+    while notes && met != 0 {
+        let ray = met.trailing_zeros() as usize & (MOST - 1);
+        met &= met - 1;
+        if let Some(t) = distance(block, i, &LocalRay::new(&ask.rays[ray])) {
+            let (shape, prim) = (block.shape[i], block.prim[i]);
+            fan.noted[ray].push(Hit { t: t as f32, shape, prim, instance: WORLD, u: 0.0, v: 0.0 });
+        }
     }
 }
 

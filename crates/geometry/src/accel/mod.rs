@@ -13,6 +13,7 @@ mod lanes;
 #[cfg(target_arch = "x86_64")]
 mod lanes_avx2;
 mod node;
+mod notes;
 mod query;
 mod store;
 mod traverse;
@@ -21,11 +22,12 @@ mod triangle;
 pub use fan::Fan;
 
 use crate::error::GeometryError;
-use crate::shape::{LocalSurface, MASK_ALL, ShapeGroup};
+use crate::shape::{LocalSurface, MASK_ALL, Shape, ShapeGroup};
 use crate::surface::Rounding;
 use crate::{Bounds3, Motion, Ray, SurfacePoint, Transform};
 use collect::{References, level};
 use node::Bvh;
+pub use notes::Notes;
 use tyndall_base::vec::vec2;
 
 /// What [`Hit::instance`] is outside every instance.
@@ -260,6 +262,21 @@ impl Accel {
         let (o, d) = query::shape_ray(ray, to_world);
         let local = group.local_surface(hit.prim, o, d, f64::from(hit.t));
         finish(to_world.map_or(local, |t| place(&local, t)), ray.time)
+    }
+
+    /// Whether the ray leaves `hit` on the side that the surface's geometric normal points to: as [`Accel::surface`] tells,
+    /// without working out the point where a plain triangle is met.
+    #[inline]
+    pub fn leaves_outward(&self, ray: &Ray, hit: &Hit) -> bool {
+        let group = &self.groups[hit.shape as usize];
+        if let Shape::Triangles(mesh) = &group.shape
+            && hit.instance == NO_INSTANCE
+            && !mesh.has_normals()
+        {
+            let along = mesh.normal_along(hit.prim, ray.d.into());
+            return (along > 0.0) != group.flips_normal() && along != 0.0;
+        }
+        ray.d.dot(self.surface(ray, hit).ng) > 0.0
     }
 
     /// Whether the ray meets the side that the surface's geometric normal points to.

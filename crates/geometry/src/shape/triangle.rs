@@ -83,6 +83,12 @@ impl TriangleMesh {
         [self.p[a as usize], self.p[b as usize], self.p[c as usize]]
     }
 
+    /// The component of the normal of triangle `prim` along `d`, times twice the triangle's area.
+    #[inline]
+    pub(crate) fn normal_along(&self, prim: u32, d: DVec3) -> f64 {
+        cross_edges(self.corners(prim)).dot(d)
+    }
+
     /// The box around triangle `prim`.
     pub fn prim_bounds(&self, prim: u32) -> Bounds3 {
         Bounds3::from_points(self.corners(prim))

@@ -9,7 +9,7 @@ use crate::{
     weight::exp,
 };
 use tyndall_base::Vec3;
-use tyndall_geometry::{Ray, SurfacePoint};
+use tyndall_geometry::{Notes, Ray, SurfacePoint};
 use tyndall_scatter::bsdf::{Bsdf, BsdfFlags};
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{Scene, light::Target, sampler::PathSampler};
@@ -54,13 +54,13 @@ impl<const N: usize> Site<'_, N> {
         }
     }
 
-    /// What is left of light along `ray`, which nothing blocks, to `target`; `boundary`: whether it crosses one.
+    /// What is left of light along `ray`, which nothing blocks, to `target`; with the `boundaries` that it crosses.
     #[inline(always)]
     fn sees(
         &self,
         (scene, settings): (&Scene, &Settings),
         ray: Ray,
-        boundary: bool,
+        boundaries: Notes,
         target: Target,
         w: &Wavelengths<N>,
         sampler: &mut PathSampler,
@@ -79,7 +79,7 @@ impl<const N: usize> Site<'_, N> {
             }
         };
         let place = Place { medium, inside, time: ray.time };
-        past(scene, settings, ray, boundary, place, End::At(target), w, sampler)
+        past(scene, settings, ray, boundaries, place, End::At(target), w, sampler)
     }
 }
 
@@ -176,19 +176,19 @@ impl<const N: usize> Shared<N> {
         Some(Aim { ray, wi, f: f * geometry, pdf: pdf * geometry })
     }
 
-    /// The point as reached from `from`, at which the throughput is `beta`, where nothing blocks the aim; `boundary`:
-    /// whether something without material lies between.
+    /// The point as reached from `from`, at which the throughput is `beta`, where nothing blocks the aim;
+    /// `boundaries` without material lie between.
     #[inline(always)]
     pub fn link(
         &self,
         (scene, settings): (&Scene, &Settings),
         (from, beta): (&Site<'_, N>, Spectrum<N>),
         aim: &Aim<N>,
-        boundary: bool,
+        boundaries: Notes,
         w: &Wavelengths<N>,
         sampler: &mut PathSampler,
     ) -> Option<Link<N>> {
-        let passed = from.sees((scene, settings), aim.ray, boundary, self.target, w, sampler)?;
+        let passed = from.sees((scene, settings), aim.ray, boundaries, self.target, w, sampler)?;
         Some(Link {
             through: beta * aim.f * passed.t * self.scattering,
             density: aim.pdf * passed.r_u * self.density,

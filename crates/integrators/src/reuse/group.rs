@@ -1,6 +1,6 @@
 //! The paths of one group.
 
-use super::{CELL, GROUPS, MEMBERS, SIDE, company::Company, end::Shared};
+use super::{CELLS, MEMBERS, cell_side, company::Company, end::Shared};
 use crate::{
     glow,
     pixel::{Begin, PixelPass},
@@ -40,11 +40,12 @@ impl PixelPass {
     #[inline(always)]
     pub(crate) fn run_shared<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
         let mut values = vec![0.0; self.channels.len()];
-        for square in unit.window.tiles(SIDE) {
+        let cell = cell_side(self.resolution);
+        for square in unit.window.tiles(CELLS * cell) {
             for sample in unit.samples.clone() {
                 let seed = self.seed as u32;
                 let deal = hash::hash4(seed, sample, square.x0, square.y0);
-                for group in 0..GROUPS {
+                for group in 0..(cell * cell) as usize {
                     self.group::<N>(&square, (sample, group, deal), (unit, guide), &mut values, out);
                 }
             }
@@ -61,6 +62,7 @@ impl PixelPass {
         values: &mut [f32],
         out: &mut Patch,
     ) {
+        let cell = cell_side(self.resolution);
         let (kind, (x0, y0)) = (self.settings.sampler, (square.x0, square.y0));
         let net = PathSampler::of_group(kind, self.seed, x0, y0, sample, self.replicates);
         let mut common = net.clone();
@@ -68,11 +70,17 @@ impl PixelPass {
         let w = self.wavelengths.sample::<N>(u);
         let mut members: Members<'_, N> = [const { None }; MEMBERS];
         for k in 0..MEMBERS {
-            let (x, y) = pixel_of(square, deal, k, group);
+            let (x, y) = pixel_of(square, (deal, cell), k, group);
             if square.contains(x, y) && guide.samples_for(x, y, &unit.samples).contains(&sample) {
                 out.mark(x, y, sample);
                 let slot = group * MEMBERS + k;
-                members[k] = Some(self.set_out((x, y), sample, (&net, slot), (u, time), &w));
+                members[k] = Some(self.set_out(
+                    (x, y),
+                    sample,
+                    (&net, slot, cell * cell * MEMBERS as u32),
+                    (u, time),
+                    &w,
+                ));
             }
         }
         for k in 0..MEMBERS {
@@ -94,7 +102,7 @@ impl PixelPass {
         &'s self,
         pixel: (u32, u32),
         sample: u32,
-        (net, slot): (&PathSampler, usize),
+        (net, slot, slots): (&PathSampler, usize, u32),
         (u, time): (f32, f32),
         w: &'s Wavelengths<N>,
     ) -> Member<'s, N> {
@@ -106,7 +114,7 @@ impl PixelPass {
         walk.lamp = glow::lamp(scene, settings, &mut sampler);
         walk.pilot = lane_of::<N>(spectrum.x, u);
         walk.anew = true;
-        let mut sampler = sampler.joining(net, slot as u32, (GROUPS * MEMBERS) as u32);
+        let mut sampler = sampler.joining(net, slot as u32, slots);
         let (mut site, mut from) = (None, None);
         if exposure != 0.0 {
             // twice the same call would be compiled twice
@@ -191,7 +199,7 @@ impl PixelPass {
                 aims[i] = Some(aim);
             }
         }
-        let mut obstacles = [Obstacles { blocked: true, boundary: false }; MEMBERS];
+        let mut obstacles = [Obstacles::BLOCKED; MEMBERS];
         self.scene.obstacles_fan(&fan[..n], &mut obstacles[..n]);
         let (mut company, mut n) = (Company::empty(), 0);
         for i in 0..MEMBERS {
@@ -199,12 +207,13 @@ impl PixelPass {
                 company.join(i, shared.own_link(&member.walk));
             } else if let (Some(aim), Some(Member { from: Some((from, beta)), .. })) = (&aims[i], &members[i])
             {
-                let Obstacles { blocked, boundary } = obstacles[n];
+                let Obstacles { blocked, boundaries } = obstacles[n];
                 n += 1;
                 if blocked {
                     continue;
                 }
-                if let Some(link) = shared.link(scene, (from, *beta), aim, boundary, w, &mut member.sampler) {
+                if let Some(link) = shared.link(scene, (from, *beta), aim, boundaries, w, &mut member.sampler)
+                {
                     company.join(i, link);
                 }
             }
@@ -237,16 +246,20 @@ impl<const N: usize> Walk<'_, N> {
 
 /// The pixel of cell `k` that belongs to `group`, by a random order of the cell's pixels.
 #[inline(always)]
-fn pixel_of(square: &PixelBounds, deal: u32, k: usize, group: usize) -> (u32, u32) {
-    let mut order = [0, 1, 2, 3];
-    let mut bits = hash::hash2(deal, k as u32);
-    for last in [3, 2, 1] {
-        order.swap(last, bits as usize % (last + 1));
-        bits /= 8;
+fn pixel_of(square: &PixelBounds, (deal, cell): (u32, u32), k: usize, group: usize) -> (u32, u32) {
+    let mut pick = 0;
+    if cell == 2 {
+        let mut order = [0, 1, 2, 3];
+        let mut bits = hash::hash2(deal, k as u32);
+        for last in [3, 2, 1] {
+            order.swap(last, bits as usize % (last + 1));
+            bits /= 8;
+        }
+        pick = order[group];
     }
-    let (cells, pick) = ((SIDE / CELL) as usize, order[group]);
-    let at = |x0: u32, cell: usize, within: usize| x0 + CELL * cell as u32 + within as u32;
-    (at(square.x0, k % cells, pick % 2), at(square.y0, k / cells, pick / 2))
+    let at = |x0: u32, column: u32, within: u32| x0 + cell * column + within;
+    let (column, row) = (k as u32 % CELLS, k as u32 / CELLS);
+    (at(square.x0, column, pick % 2), at(square.y0, row, pick / 2))
 }
 
 /// The lane that lies in the same N-th of the wavelengths as `v`, where lane 0 was drawn by `u`.

@@ -17,8 +17,8 @@
 //! itself ([`crate::volpath::Walk::pilot`]), so that where the points lie does not depend on the hero of what follows;
 //! then the weights sum to one for every hero.
 //!
-//! Pixels of a square of side [`SIDE`] have errors in common. For each sample they are dealt anew to groups, one pixel
-//! of each cell to each group at random: neighbours have errors of their own and a picture has grain, not blotches.
+//! Pixels of a square have errors in common. For each sample they are dealt anew to groups, one pixel of each cell to each
+//! group at random: neighbours have errors of their own and a picture has grain, not blotches.
 
 mod company;
 mod end;
@@ -30,14 +30,19 @@ use crate::{
 };
 use tyndall_transport::{Scene, media::Medium};
 
-/// Side of the squares of pixels within which paths are shared, counted from the film's upper left corner.
-pub const SIDE: u32 = 8;
-/// Side of the cells of a square: the pixels of a cell never share, so that neighbours have errors of their own.
-pub(crate) const CELL: u32 = 2;
-/// Paths that are shared: one of each cell.
-pub(crate) const MEMBERS: usize = (SIDE / CELL * (SIDE / CELL)) as usize;
-/// Groups of paths of a square.
-pub(crate) const GROUPS: usize = (CELL * CELL) as usize;
+/// Cells of a square of pixels along each side: paths of one pixel of each cell are shared. The pixels of a cell never
+/// share, so that neighbours have errors of their own.
+pub(crate) const CELLS: u32 = 4;
+/// Paths that are shared.
+pub(crate) const MEMBERS: usize = (CELLS * CELLS) as usize;
+/// Films of this many pixels along both sides have cells of 2 x 2 pixels. On smaller ones, where neighbours see more
+/// different things, a cell is one pixel.
+const FINE: u32 = 256;
+
+/// Side of the cells of a film of `resolution` pixels.
+pub(crate) fn cell_side(resolution: [u32; 2]) -> u32 {
+    if resolution[0].min(resolution[1]) < FINE { 1 } else { 2 }
+}
 
 impl PixelPass {
     /// Whether paths of neighbouring pixels are shared.
@@ -46,9 +51,9 @@ impl PixelPass {
         plain && self.layers.is_empty() && allowed(&self.settings) && possible(&self.scene)
     }
 
-    /// Side of the squares of pixels that have errors in common, for [`tyndall_film::FilmSpec::square`]: [`SIDE`] or 1.
+    /// Side of the squares of pixels that have errors in common, for [`tyndall_film::FilmSpec::square`]; 1 for none.
     pub fn shared_side(&self) -> u32 {
-        if self.shares_paths() { SIDE } else { 1 }
+        if self.shares_paths() { CELLS * cell_side(self.resolution) } else { 1 }
     }
 }
 

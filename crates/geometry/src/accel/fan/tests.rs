@@ -27,6 +27,12 @@ fn walked(ask: &Ask<'_>, portable: bool) -> Fan {
     fan
 }
 
+/// Distances and primitives in order, if that is certain, and whether there are any.
+fn place(mut notes: Notes) -> (bool, Option<Vec<(f32, u32, u32)>>) {
+    let any = !notes.is_empty();
+    (any, notes.in_order().map(|hits| hits.iter().map(|h| (h.t, h.shape, h.prim)).collect()))
+}
+
 /// All ways against single queries; returns how many rays are blocked or noted.
 fn check(accel: &Accel, rays: &[Ray], [blocking, noted]: [u8; 2]) -> u32 {
     if rays.is_empty() {
@@ -38,14 +44,20 @@ fn check(accel: &Accel, rays: &[Ray], [blocking, noted]: [u8; 2]) -> u32 {
         for (i, ray) in rays.iter().enumerate() {
             let blocked = accel.occluded_masked(ray, blocking);
             assert_eq!(fan.blocked >> i & 1 != 0, blocked, "{i} of {rays:?}");
-            let note = fan.noted >> i & 1 != 0;
-            let want = accel.occluded_masked(ray, noted);
-            assert!(note == want || blocked && !note, "{i} of {rays:?}: {note} {want}");
+            let mut want = Notes::NONE;
+            accel.occluded_filtered(ray, noted, |hit| {
+                want.push(*hit);
+                false
+            });
+            let (note, want) = (place(fan.noted[i]), place(want));
+            assert!(blocked || note == want, "{i} of {rays:?}: {note:?} {want:?}");
         }
         let beyond = !0u32 << rays.len();
-        assert_eq!((u32::from(fan.blocked) | u32::from(fan.noted)) & beyond, 0);
+        assert_eq!(u32::from(fan.blocked) & beyond, 0);
+        assert!(fan.noted[rays.len()..].iter().all(Notes::is_empty));
     }
-    (fan.blocked | fan.noted).count_ones()
+    let noted = (0..MOST).filter(|&i| !fan.noted[i].is_empty()).fold(0, |bits, i| bits | 1 << i);
+    (fan.blocked | noted).count_ones()
 }
 
 /// Up to 16 rays from within `spread` of `x` to `y`; some stray.
