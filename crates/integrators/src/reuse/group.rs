@@ -64,8 +64,7 @@ impl PixelPass {
     ) {
         let cell = cell_side(self.resolution);
         let (kind, (x0, y0)) = (self.settings.sampler, (square.x0, square.y0));
-        let net = PathSampler::of_group(kind, self.seed, x0, y0, sample, self.replicates);
-        let mut common = net.clone();
+        let mut common = PathSampler::of_group(kind, self.seed, x0, y0, sample, self.replicates);
         let (u, time) = (common.next_1d(), common.next_1d());
         let w = self.wavelengths.sample::<N>(u);
         let mut members: Members<'_, N> = [const { None }; MEMBERS];
@@ -73,14 +72,7 @@ impl PixelPass {
             let (x, y) = pixel_of(square, (deal, cell), k, group);
             if square.contains(x, y) && guide.samples_for(x, y, &unit.samples).contains(&sample) {
                 out.mark(x, y, sample);
-                let slot = group * MEMBERS + k;
-                members[k] = Some(self.set_out(
-                    (x, y),
-                    sample,
-                    (&net, slot, cell * cell * MEMBERS as u32),
-                    (u, time),
-                    &w,
-                ));
+                members[k] = Some(self.set_out((x, y), sample, (u, time), &w));
             }
         }
         for k in 0..MEMBERS {
@@ -102,7 +94,6 @@ impl PixelPass {
         &'s self,
         pixel: (u32, u32),
         sample: u32,
-        (net, slot, slots): (&PathSampler, usize, u32),
         (u, time): (f32, f32),
         w: &'s Wavelengths<N>,
     ) -> Member<'s, N> {
@@ -114,7 +105,6 @@ impl PixelPass {
         walk.lamp = glow::lamp(scene, settings, &mut sampler);
         walk.pilot = lane_of::<N>(spectrum.x, u);
         walk.anew = true;
-        let mut sampler = sampler.joining(net, slot as u32, slots);
         let (mut site, mut from) = (None, None);
         if exposure != 0.0 {
             // twice the same call would be compiled twice

@@ -83,7 +83,6 @@ impl<'s, const N: usize> Walk<'s, N> {
             let value = self.direct(&vertex, sampler, seen);
             self.l += audience.lit(towards.get(), value);
         }
-        sampler.join();
         let u = sampler.next_2d();
         let mut u = [u.x, u.y];
         let (wi, phase) = if let Some(wi) = at.steering.and_then(|s| s.sample(&mut u)) {
@@ -122,7 +121,6 @@ impl<'s, const N: usize> Walk<'s, N> {
             let value = self.direct(&vertex, sampler, seen);
             self.l += value;
         }
-        sampler.join();
         let uc = sampler.next_1d();
         let u = sampler.next_2d();
         let mut u = [u.x, u.y];

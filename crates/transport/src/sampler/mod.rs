@@ -27,30 +27,15 @@ const SOBOL_DIMENSIONS: u32 = CAMERA_DIMENSIONS + 4 * DIMENSIONS_PER_VERTEX;
 #[derive(Clone, Debug)]
 pub struct PathSampler {
     kind: SamplerKind,
-    net: Net,
-    /// The net that the path draws from once it has joined others.
-    joint: Option<Net>,
-    dimension: u32,
-    /// Streams handed out so far.
-    streams: u32,
-}
-
-/// A position in a net.
-#[derive(Clone, Copy, Debug)]
-struct Net {
     /// Hash of (seed, pixel, replicate): the key of every scramble.
     key: u32,
     /// Position within the replicate's net.
     index: u32,
     /// The same, prepared for the net.
     point: sobol::SobolIndex,
-}
-
-impl Net {
-    #[inline(always)]
-    fn new(key: u32, index: u32) -> Self {
-        Self { key, index, point: sobol::SobolIndex::new(index) }
-    }
+    dimension: u32,
+    /// Streams handed out so far.
+    streams: u32,
 }
 
 /// Tells the nets of groups of paths from those of pixels.
@@ -64,30 +49,13 @@ impl PathSampler {
     pub fn new(kind: SamplerKind, seed: u64, px: u32, py: u32, sample: u32, replicates: u32) -> Self {
         let replicates = replicates.max(1);
         let key = hash::hash4(seed as u32, (seed >> 32) as u32 ^ (sample % replicates), px, py);
-        let net = Net::new(key, sample / replicates);
-        Self { kind, net, joint: None, dimension: 0, streams: 0 }
+        let index = sample / replicates;
+        Self { kind, key, index, point: sobol::SobolIndex::new(index), dimension: 0, streams: 0 }
     }
 
     /// The stream that the paths number `sample` of all pixels of a group share; a pixel, (`px`, `py`), names the group.
     pub fn of_group(kind: SamplerKind, seed: u64, px: u32, py: u32, sample: u32, replicates: u32) -> Self {
         Self::new(kind, seed ^ (u64::from(GROUP) << 32), px, py, sample, replicates)
-    }
-
-    /// This stream, to go on after [`Self::join`] with its part of the group's: points of one net are dealt to the
-    /// `members` paths, so that together they are stratified.
-    #[must_use]
-    pub fn joining(mut self, group: &Self, member: u32, members: u32) -> Self {
-        let index = group.net.index.wrapping_mul(members).wrapping_add(member);
-        self.joint = Some(Net::new(hash::hash2(group.net.key, GROUP), index));
-        self
-    }
-
-    /// From here on the numbers are those of the group, if there is one.
-    #[inline(always)]
-    pub fn join(&mut self) {
-        if let Some(net) = self.joint.take() {
-            self.net = net;
-        }
     }
 
     /// Moves to `dimension`.
@@ -107,7 +75,7 @@ impl PathSampler {
     #[inline]
     pub fn stream(&mut self) -> Pcg32 {
         self.streams += 1;
-        Pcg32::from_key(hash::hash3_u64(self.net.key, self.net.index, self.streams))
+        Pcg32::from_key(hash::hash3_u64(self.key, self.index, self.streams))
     }
 
     #[inline(always)]
@@ -118,11 +86,11 @@ impl PathSampler {
     /// One number of \[0, 1).
     #[inline(always)]
     pub fn next_1d(&mut self) -> f32 {
-        let seed = hash::hash2(self.net.key, self.dimension);
+        let seed = hash::hash2(self.key, self.dimension);
         let u = if self.stratified() {
-            self.net.point.d1(seed)
+            self.point.d1(seed)
         } else {
-            hash::to_unit_f32(hash::hash2(seed, self.net.index))
+            hash::to_unit_f32(hash::hash2(seed, self.index))
         };
         self.dimension += 1;
         u
@@ -131,12 +99,12 @@ impl PathSampler {
     /// Two numbers of \[0, 1), jointly stratified in the first dimensions.
     #[inline(always)]
     pub fn next_2d(&mut self) -> Vec2 {
-        let seed = hash::hash2(self.net.key, self.dimension);
+        let seed = hash::hash2(self.key, self.dimension);
         let u = if self.stratified() {
-            self.net.point.d2(seed)
+            self.point.d2(seed)
         } else {
-            let a = hash::hash2(seed, self.net.index);
-            [hash::to_unit_f32(a), hash::to_unit_f32(hash::hash2(a, !self.net.index))]
+            let a = hash::hash2(seed, self.index);
+            [hash::to_unit_f32(a), hash::to_unit_f32(hash::hash2(a, !self.index))]
         };
         self.dimension += 2;
         vec2(u[0], u[1])
