@@ -267,9 +267,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         let mut segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;
         let division = self.division(inside);
         if self.company > 0 {
-            if division.is_none() {
-                return None;
-            }
+            division?;
             segment = segment.always();
         }
         let at = equiangular::Origin {

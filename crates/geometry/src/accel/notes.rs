@@ -74,7 +74,7 @@ mod tests {
     fn hits_come_in_order_where_that_is_certain() {
         let mut notes = Notes::NONE;
         assert_eq!(notes.in_order().map(<[Hit]>::len), Some(0));
-        [3.0, 1.0, 2.0].map(|t| notes.push(at(t)));
+        [3.0, 1.0, 2.0].into_iter().for_each(|t| notes.push(at(t)));
         let order: Vec<f32> = notes.in_order().expect("apart").iter().map(|h| h.t).collect();
         assert_eq!(order, [1.0, 2.0, 3.0]);
         notes.push(at(2.000_001));

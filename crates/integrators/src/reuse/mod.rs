@@ -32,7 +32,7 @@ use tyndall_transport::{Scene, media::Medium};
 
 /// Cells of a square of pixels along each side: paths of one pixel of each cell are shared. The pixels of a cell never
 /// share, so that neighbours have errors of their own.
-pub(crate) const CELLS: u32 = 4;
+pub const CELLS: u32 = 4;
 /// Paths that are shared.
 pub(crate) const MEMBERS: usize = (CELLS * CELLS) as usize;
 /// Films of this many pixels along both sides have cells of 2 x 2 pixels. On smaller ones, where neighbours see more

@@ -71,7 +71,6 @@ impl<const N: usize> SurfaceSite<'_, N> {
 
 /// Either.
 #[derive(Clone, Copy, Debug)]
-#[expect(clippy::large_enum_variant, reason = "lives on the stack of one path")]
 pub(crate) enum Site<'s, const N: usize> {
     /// In a medium.
     Medium(MediumSite<'s, N>),

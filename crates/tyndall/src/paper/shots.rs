@@ -43,7 +43,7 @@ pub struct Taken {
     pub rgb: Vec<[f64; 3]>,
     /// Their standard errors.
     pub error: Vec<[f64; 3]>,
-    /// Standard errors of their means over blocks of [`BLOCK`] x [`BLOCK`] pixels, row by row.
+    /// Standard errors of their means over the blocks of pixels that colours are compared in, row by row.
     pub block_error: Vec<[f64; 3]>,
     /// Seconds it took, earlier runs included.
     pub seconds: f64,

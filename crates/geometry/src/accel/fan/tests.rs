@@ -27,8 +27,11 @@ fn walked(ask: &Ask<'_>, portable: bool) -> Fan {
     fan
 }
 
-/// Distances and primitives in order, if that is certain, and whether there are any.
-fn place(mut notes: Notes) -> (bool, Option<Vec<(f32, u32, u32)>>) {
+/// Distance, shape and primitive.
+type Place = (f32, u32, u32);
+
+/// Whether there are any, and where, if their order is certain.
+fn place(mut notes: Notes) -> (bool, Option<Vec<Place>>) {
     let any = !notes.is_empty();
     (any, notes.in_order().map(|hits| hits.iter().map(|h| (h.t, h.shape, h.prim)).collect()))
 }
