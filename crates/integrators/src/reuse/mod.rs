@@ -14,7 +14,7 @@
 //! `sum_m p_l(y_k | x_m)`, and what it brings is dealt out in proportion to `beta_i F(x_i, y_k)`.
 //!
 //! The paths of a group share their wavelengths and their time. Distances to `x_i` are led by a lane that is drawn for
-//! itself ([`crate::volpath::Walk::pilot`]), so that where the points lie does not depend on the hero of what follows;
+//! itself (`pilot` in `volpath`), so that where the points lie does not depend on the hero of what follows;
 //! then the weights sum to one for every hero.
 //!
 //! Pixels of a square have errors in common. For each sample they are dealt anew to groups, one pixel of each cell to each
