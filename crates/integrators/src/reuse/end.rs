@@ -161,15 +161,16 @@ impl<const N: usize> Shared<N> {
         Link { through, density, wo: -walk.ray.d }
     }
 
-    /// The point as aimed at from `from`; `None` where that scatters nothing to it.
+    /// The point as aimed at from `from`, at which the throughput is `beta`; `None` where nothing scatters to it.
     #[inline(always)]
-    pub fn aim(&self, from: &Site<'_, N>, w: &Wavelengths<N>) -> Option<Aim<N>> {
+    pub fn aim(&self, from: &Site<'_, N>, beta: Spectrum<N>, w: &Wavelengths<N>) -> Option<Aim<N>> {
         let to = self.target.p - from.p();
         let r2 = to.length_squared();
         let wi = to * (1.0 / r2.sqrt());
         let geometry = self.geometry(wi, r2)?;
         let (f, pdf) = from.eval(wi, w);
-        if pdf.is_zero() {
+        // a path without throughput ends, so that its density here is zero, too
+        if (beta * f).is_zero() {
             return None;
         }
         let ray = self.target.ray_from(from.spawn(wi), self.time)?;
@@ -189,11 +190,11 @@ impl<const N: usize> Shared<N> {
         sampler: &mut PathSampler,
     ) -> Option<Link<N>> {
         let passed = from.sees((scene, settings), aim.ray, boundaries, self.target, w, sampler)?;
-        Some(Link {
-            through: beta * aim.f * passed.t * self.scattering,
-            density: aim.pdf * passed.r_u * self.density,
-            wo: -aim.wi,
-        })
+        let through = beta * aim.f * passed.t * self.scattering;
+        if through.is_zero() {
+            return None;
+        }
+        Some(Link { through, density: aim.pdf * passed.r_u * self.density, wo: -aim.wi })
     }
 }
 

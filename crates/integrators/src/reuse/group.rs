@@ -52,7 +52,8 @@ impl PixelPass {
         }
     }
 
-    /// Sample number `sample` of those pixels of a square that `deal` gives to the group, and that take it.
+    /// Sample number `sample` of the pixels of a square that `deal` gives to the group, for those that take it. All send
+    /// their paths, whoever takes them, so that a pixel's sample does not depend on when and where others take theirs.
     #[inline(always)]
     fn group<const N: usize>(
         &self,
@@ -67,10 +68,15 @@ impl PixelPass {
         let mut common = PathSampler::of_group(kind, self.seed, x0, y0, sample, self.replicates);
         let (u, time) = (common.next_1d(), common.next_1d());
         let w = self.wavelengths.sample::<N>(u);
+        let takes = |(x, y)| guide.samples_for(x, y, &unit.samples).contains(&sample);
+        let pixels =
+            |k| Some(pixel_of(square, (deal, cell), k, group)).filter(|&(x, y)| square.contains(x, y));
+        if guide.counts.is_some() && !(0..MEMBERS).filter_map(pixels).any(takes) {
+            return;
+        }
         let mut members: Members<'_, N> = [const { None }; MEMBERS];
         for k in 0..MEMBERS {
-            let (x, y) = pixel_of(square, (deal, cell), k, group);
-            if square.contains(x, y) && guide.samples_for(x, y, &unit.samples).contains(&sample) {
+            if let Some((x, y)) = pixels(k) {
                 out.mark(x, y, sample);
                 members[k] = Some(self.set_out((x, y), sample, (u, time), &w));
             }
@@ -83,6 +89,9 @@ impl PixelPass {
         let response = self.channels.prepare(&w);
         for member in members.iter().flatten() {
             let (x, y) = member.pixel;
+            if !takes((x, y)) {
+                continue;
+            }
             self.channels.respond_prepared(&(member.l * member.exposure), &response, values);
             out.add_sample(x, y, sample, member.filter, values);
         }
@@ -181,8 +190,8 @@ impl PixelPass {
         // one query for all rays to the point
         let (mut aims, mut fan, mut n) = ([const { None }; MEMBERS], [NOWHERE; MEMBERS], 0);
         for i in 0..MEMBERS {
-            if let Some(Member { from: Some((from, _)), .. }) = &members[i]
-                && let Some(aim) = shared.aim(from, w)
+            if let Some(Member { from: Some((from, beta)), .. }) = &members[i]
+                && let Some(aim) = shared.aim(from, *beta, w)
             {
                 fan[n] = aim.ray;
                 n += 1;
