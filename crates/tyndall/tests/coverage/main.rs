@@ -80,7 +80,7 @@ fn table() {
             check(&case, Mode::Replicated, &row(&case, Mode::Replicated, spp, INTERVALS));
         }
         for rel in [0.04, 0.02] {
-            check(&case, Mode::Until(rel), &row(&case, Mode::Until(rel), 1 << 14));
+            check(&case, Mode::Until(rel), &row(&case, Mode::Until(rel), 1 << 14, INTERVALS));
         }
     }
 }
@@ -100,5 +100,5 @@ fn table_of_heavy_tails() {
             check(&case, mode, &row(&case, mode, spp, INTERVALS));
         }
     }
-    check(&case, Mode::Until(0.08), &row(&case, Mode::Until(0.08), 1 << 16));
+    check(&case, Mode::Until(0.08), &row(&case, Mode::Until(0.08), 1 << 16, INTERVALS));
 }
