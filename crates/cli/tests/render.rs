@@ -158,9 +158,9 @@ fn all_strategies_and_integrators_run_and_say_so() {
 fn overrides_change_the_scene() {
     let place = Place::new();
     // pixels err together: replicates tell how much
-    let known = "--spp 32 --errors replicated";
-    place.ok(&format!("{TINY} {known} -o fog.exr"));
-    place.ok(&format!("{TINY} {known} --set fog.scale=0 -o clear.exr"));
+    let known = "render --resolution 16x16 --spp 32 --quiet --errors replicated";
+    place.ok(&format!("{known} -o fog.exr"));
+    place.ok(&format!("{known} --set fog.scale=0 -o clear.exr"));
     let diff = place.ok("diff clear.exr fog.exr --json");
     let diff: serde_json::Value = serde_json::from_str(&diff.out).expect("JSON");
     assert_eq!(diff["verdict"], "differ");

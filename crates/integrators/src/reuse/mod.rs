@@ -25,7 +25,7 @@ mod end;
 mod group;
 
 use crate::{
-    pixel::{Method, PixelPass, Sharing},
+    pixel::{Lanes, Method, PixelPass, Sharing},
     settings::Settings,
 };
 use tyndall_transport::{Scene, media::Medium};
@@ -47,8 +47,10 @@ pub(crate) fn cell_side(resolution: [u32; 2]) -> u32 {
 impl PixelPass {
     /// Whether paths of neighbouring pixels are shared.
     pub fn shares_paths(&self) -> bool {
+        // the single wavelength of a path would be that of the whole square
+        let several = self.lanes != Lanes::One;
         let plain = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero);
-        plain && self.layers.is_empty() && allowed(&self.settings) && possible(&self.scene)
+        several && plain && self.layers.is_empty() && allowed(&self.settings) && possible(&self.scene)
     }
 
     /// Side of the squares of pixels that have errors in common, for [`tyndall_film::FilmSpec::square`]; 1 for none.
