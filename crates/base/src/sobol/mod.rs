@@ -15,15 +15,45 @@ mod tests;
 use crate::hash::{hash2_u64, to_unit_f32};
 use directions::higher_dimensions;
 
-/// A sample's index in every Sobol block it draws from: holds the index with its bits reversed, once for all blocks.
+/// A sample's index in every Sobol block it draws from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SobolIndex(u32);
+pub struct SobolIndex {
+    /// The index with its bits reversed, once for all blocks.
+    reversed: u32,
+    /// The same of the number among those who share a net.
+    member: u32,
+    sharers: Sharers,
+}
+
+/// How many share a net; see [`SobolIndex::shared`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sharers {
+    /// Nobody else.
+    #[default]
+    One,
+    /// 16.
+    Sixteen,
+    /// 64.
+    SixtyFour,
+}
 
 impl SobolIndex {
-    /// The sample number `index` of a pixel (or of whatever shares one net).
+    /// The sample number `index` of a pixel (or of whatever has a net of its own).
     #[inline(always)]
     pub const fn new(index: u32) -> Self {
-        Self(index.reverse_bits())
+        Self { reversed: index.reverse_bits(), member: 0, sharers: Sharers::One }
+    }
+
+    /// The sample number `index`, below 2^26, of pixel `k` of several that share a net: the points of each are a net, and
+    /// those of all are a net as many times as dense.
+    ///
+    /// With n pixels point `index` of pixel `k` is number `n index + (k ^ M index)` of the sequence, `M` a matrix of bits.
+    /// The points of one pixel are then a digital net whose matrices are those of Sobol with the rows of `M` put before; its
+    /// columns were found one after the other such that the first 2^m points of a pixel are a (0, m, 2)-net for each m up
+    /// to 24.
+    #[inline(always)]
+    pub const fn shared(index: u32, k: u32, sharers: Sharers) -> Self {
+        Self { reversed: index.reverse_bits(), member: k.reverse_bits(), sharers }
     }
 
     /// A number in `[0, 1)`, a multiple of 2^-24.
@@ -55,8 +85,15 @@ impl SobolIndex {
 
     /// The index under a random permutation that keeps aligned blocks of 2^m together.
     #[inline(always)]
-    const fn shuffled(self, h: u64) -> u32 {
-        owen(self.0, (h >> 32) as u32).reverse_bits()
+    fn shuffled(self, h: u64) -> u32 {
+        let index = owen(self.reversed, (h >> 32) as u32).reverse_bits();
+        // pixels change places, too, in the same manner
+        let k = || owen(self.member, derived(h, 3)).reverse_bits();
+        match self.sharers {
+            Sharers::One => index,
+            Sharers::Sixteen => index << 4 | (k() ^ times(&OF_16, index)) & 15,
+            Sharers::SixtyFour => index << 6 | (k() ^ times(&OF_64, index)) & 63,
+        }
     }
 }
 
@@ -76,6 +113,33 @@ pub fn sobol_2d(index: u32, seed: u32) -> [f32; 2] {
 #[inline(always)]
 pub fn sobol_4d(index: u32, seed: u32) -> [f32; 4] {
     SobolIndex::new(index).d4(seed)
+}
+
+/// Products of the matrices `M` of [`SobolIndex::shared`] with the lowest three bytes of an index.
+type Places = [[u8; 256]; 3];
+static OF_16: Places = places([3, 1, 12, 4, 2, 3, 8, 12, 1, 2, 4, 8, 3, 1, 12, 4, 2, 3, 8, 12, 1, 2, 4, 8]);
+static OF_64: Places =
+    places([3, 1, 5, 13, 48, 16, 19, 18, 8, 5, 53, 37, 1, 19, 27, 30, 16, 53, 52, 39, 5, 27, 11, 62]);
+
+/// Of the matrix with these columns.
+const fn places(columns: [u8; 24]) -> Places {
+    let mut places = [[0; 256]; 3];
+    let mut i = 0;
+    while i < 3 * 256 * 8 {
+        let (byte, value, bit) = (i / 2048, i / 8 % 256, i % 8);
+        if value >> bit & 1 != 0 {
+            places[byte][value] ^= columns[8 * byte + bit];
+        }
+        i += 1;
+    }
+    places
+}
+
+/// The product of a matrix of bits and `index`.
+#[inline(always)]
+fn times(places: &Places, index: u32) -> u32 {
+    let of = |byte: usize| places[byte][(index >> (8 * byte) & 0xff) as usize];
+    u32::from(of(0) ^ of(1) ^ of(2))
 }
 
 /// 64 random bits of a seed: the upper half shuffles the index, the lower scrambles the first dimension.

@@ -69,6 +69,43 @@ fn aligned_blocks_are_nets_in_two_dimensions() {
     assert_net(&(0..1 << 16).map(|i| sobol_2d(i, 5)).collect::<Vec<_>>(), "16 bits");
 }
 
+/// The points of each pixel are nets, those of all are a net as well, and so are blocks far into the sequence.
+#[test]
+fn points_of_pixels_that_share_are_nets_alone_and_together() {
+    for (sharers, n) in [(Sharers::Sixteen, 16), (Sharers::SixtyFour, 64)] {
+        for seed in 0..6_u32 {
+            for m in 0..=8_u32 {
+                for start in [0, 3 << m, (hash2(seed, m) >> (m + 8)) << m] {
+                    let of =
+                        |k: u32| (0..1 << m).map(move |i| SobolIndex::shared(start + i, k, sharers).d2(seed));
+                    let what = format!("{sharers:?}, seed {seed}, {m} bits from {start}");
+                    (0..n)
+                        .for_each(|k| assert_net(&of(k).collect::<Vec<_>>(), &format!("{what}, pixel {k}")));
+                    assert_net(&(0..n).flat_map(of).collect::<Vec<_>>(), &what);
+                }
+            }
+        }
+    }
+}
+
+/// Whether two pixels' numbers, or two pairs of dimensions of one pixel, are independent over seeds.
+#[test]
+fn shared_points_are_uniform_and_padded_at_random() {
+    let sharers = [Sharers::Sixteen, Sharers::SixtyFour];
+    for (i, sharers) in sharers.into_iter().enumerate() {
+        let one = |r: &mut Rng| {
+            let p = SobolIndex::shared(r.u32() & 15, 5, sharers).d2(r.u32());
+            Some([p[0].into(), p[1].into()])
+        };
+        chi2_2d(one, |_| 1.0, [[0.0, 1.0], [0.0, 1.0]], 200_000, 10 + i as u64).assert_ok("a point", 4);
+        let padded = |r: &mut Rng| {
+            let (point, seed) = (SobolIndex::shared(r.u32() & 15, r.u32() & 15, sharers), r.u32());
+            Some([point.d2(seed)[0].into(), point.d2(seed.wrapping_add(2))[0].into()])
+        };
+        chi2_2d(padded, |_| 1.0, [[0.0, 1.0], [0.0, 1.0]], 200_000, 20 + i as u64).assert_ok("padding", 4);
+    }
+}
+
 #[test]
 fn every_dimension_is_stratified() {
     for seed in [0, 1, 77, u32::MAX] {

@@ -27,8 +27,10 @@ const SOBOL_DIMENSIONS: u32 = CAMERA_DIMENSIONS + 4 * DIMENSIONS_PER_VERTEX;
 #[derive(Clone, Debug)]
 pub struct PathSampler {
     kind: SamplerKind,
-    /// Hash of (seed, pixel, replicate): the key of every scramble.
+    /// Hash of (seed, pixel, replicate): the key of all that does not come from a net.
     key: u32,
+    /// The key of every scramble: the same, or that of the pixels which share a net.
+    scramble: u32,
     /// Position within the replicate's net.
     index: u32,
     /// The same, prepared for the net.
@@ -40,6 +42,8 @@ pub struct PathSampler {
 
 /// Tells the nets of groups of paths from those of pixels.
 const GROUP: u32 = 0x6a09_e667;
+/// And those that pixels share.
+const SHARED: u32 = 0xbb67_ae85;
 
 impl PathSampler {
     /// The stream of sample `sample` of pixel (`px`, `py`).
@@ -50,7 +54,24 @@ impl PathSampler {
         let replicates = replicates.max(1);
         let key = hash::hash4(seed as u32, (seed >> 32) as u32 ^ (sample % replicates), px, py);
         let index = sample / replicates;
-        Self { kind, key, index, point: sobol::SobolIndex::new(index), dimension: 0, streams: 0 }
+        let point = sobol::SobolIndex::new(index);
+        Self { kind, key, scramble: key, index, point, dimension: 0, streams: 0 }
+    }
+
+    /// The same stream, but with the points of a net that several pixels share, of which this one is number `k` and
+    /// (`px`, `py`) the first. What falls unevenly in one pixel is made up for in the others.
+    pub fn within(
+        mut self,
+        (k, sharers): (u32, sobol::Sharers),
+        seed: u64,
+        (px, py): (u32, u32),
+        sample: u32,
+        replicates: u32,
+    ) -> Self {
+        let all = Self::new(self.kind, seed ^ (u64::from(SHARED) << 32), px, py, sample, replicates);
+        self.scramble = all.key;
+        self.point = sobol::SobolIndex::shared(self.index, k, sharers);
+        self
     }
 
     /// The stream that the paths number `sample` of all pixels of a group share; a pixel, (`px`, `py`), names the group.
@@ -86,11 +107,10 @@ impl PathSampler {
     /// One number of \[0, 1).
     #[inline(always)]
     pub fn next_1d(&mut self) -> f32 {
-        let seed = hash::hash2(self.key, self.dimension);
         let u = if self.stratified() {
-            self.point.d1(seed)
+            self.point.d1(hash::hash2(self.scramble, self.dimension))
         } else {
-            hash::to_unit_f32(hash::hash2(seed, self.index))
+            hash::to_unit_f32(hash::hash2(hash::hash2(self.key, self.dimension), self.index))
         };
         self.dimension += 1;
         u
@@ -99,11 +119,10 @@ impl PathSampler {
     /// Two numbers of \[0, 1), jointly stratified in the first dimensions.
     #[inline(always)]
     pub fn next_2d(&mut self) -> Vec2 {
-        let seed = hash::hash2(self.key, self.dimension);
         let u = if self.stratified() {
-            self.point.d2(seed)
+            self.point.d2(hash::hash2(self.scramble, self.dimension))
         } else {
-            let a = hash::hash2(seed, self.index);
+            let a = hash::hash2(hash::hash2(self.key, self.dimension), self.index);
             [hash::to_unit_f32(a), hash::to_unit_f32(hash::hash2(a, !self.index))]
         };
         self.dimension += 2;
@@ -135,6 +154,26 @@ mod tests {
             for i in 0..16 {
                 let mut s = PathSampler::new(SamplerKind::OwenSobol, 9, 1, 2, i * 8 + replicate, 8);
                 seen[(s.next_1d() * 16.0) as usize] = true;
+            }
+            assert!(seen.iter().all(|&b| b), "replicate {replicate} misses a stratum");
+        }
+    }
+
+    #[test]
+    fn pixels_that_share_a_net_fill_it_together() {
+        // 16 pixels of 8 samples in each of 2 replicates: 128 strata, one point each
+        for replicate in 0..2 {
+            let mut seen = [false; 128];
+            for (k, i) in (0..16).flat_map(|k| (0..8).map(move |i| (k, i))) {
+                let (sample, pixel) = (2 * i + replicate, (40 + k % 4, 20 + k / 4));
+                let own = PathSampler::new(SamplerKind::OwenSobol, 9, pixel.0, pixel.1, sample, 2);
+                let mut s = own.clone().within((k, sobol::Sharers::Sixteen), 9, (40, 20), sample, 2);
+                seen[(s.next_1d() * 128.0) as usize] = true;
+                // beyond the net each pixel has numbers of its own
+                let mut own = own;
+                own.seek_vertex(40);
+                s.seek_vertex(40);
+                assert_eq!(own.next_2d(), s.next_2d());
             }
             assert!(seen.iter().all(|&b| b), "replicate {replicate} misses a stratum");
         }
