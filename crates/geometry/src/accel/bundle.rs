@@ -62,6 +62,19 @@ impl<L: Lanes> Group<L> {
         Some(Self { o, d, t_max, size, near, far, long, slope })
     }
 
+    /// Where the rays start.
+    #[inline(always)]
+    pub fn starts(&self) -> [L::F8; 3] {
+        self.o
+    }
+
+    /// Where the rays end, rounded.
+    #[inline(always)]
+    pub fn ends(&self, l: L) -> [L::F8; 3] {
+        let end = |k: usize| l.add8(self.o[k], l.mul8(self.d[k], self.t_max));
+        [end(0), end(1), end(2)]
+    }
+
     /// The rays whose own walk would enter the box in `slot`: the operations of `Slabs::test`.
     #[inline(always)]
     pub fn enters(&self, l: L, node: &Node, slot: usize) -> u32 {

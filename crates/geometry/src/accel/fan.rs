@@ -7,10 +7,11 @@
 //! the ray's own query, to the last bit.
 
 use super::bundle::{GROUP, Group, Plane, Shaft, grazes};
+use super::hull::Hull;
 use super::lanes::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::lanes_avx2::Avx2;
-use super::node::{Block, Bvh, Child, Node};
+use super::node::{Block, Bvh, Child, LANES, Node};
 use super::notes::Notes;
 use super::query::{Kernel, LocalRay, Query, any};
 use super::traverse::{Stack, WORLD, prefetch};
@@ -145,6 +146,7 @@ fn walk<L: Kernel>(l: L, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
         groups[1] = h;
     }
     let shaft = Shaft::new(l, [&groups[0], &groups[1]]);
+    let hull = Hull::new(l, [&groups[0], &groups[1]]);
     let bvh = &ask.accel.world;
     let (nodes, blocks): (&[Node], &[Block]) = (&bvh.nodes, &bvh.blocks);
     let mut room = MaybeUninit::uninit();
@@ -167,7 +169,7 @@ fn walk<L: Kernel>(l: L, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
                 }
                 let child = node.child[slot];
                 if child.is_leaf() {
-                    leaf(l, ask, &groups, bvh, child, entering, fan);
+                    leaf(l, ask, &groups, &hull, bvh, child, entering, fan);
                     if u32::from(fan.blocked) == all {
                         return 0;
                     }
@@ -211,11 +213,13 @@ fn entering<L: Kernel>(l: L, groups: &[Group<L>; 2], node: &Node, slot: usize, r
 }
 
 /// Visits a leaf with the rays that enter its box.
+#[expect(clippy::too_many_arguments, reason = "the state of a walk")]
 #[inline(always)]
 fn leaf<L: Kernel>(
     l: L,
     ask: &Ask<'_>,
     groups: &[Group<L>; 2],
+    hull: &Hull<L>,
     bvh: &Bvh,
     child: Child,
     active: u32,
@@ -228,7 +232,10 @@ fn leaf<L: Kernel>(
     let (first, n) = child.range();
     // SAFETY: leaves name ranges of blocks that exist.
     for block in unsafe { bvh.blocks.get_unchecked(first..first + n) } {
-        for i in 0..4 {
+        let mut crossed = hull.crosses(l, block);
+        while crossed != 0 {
+            let i = crossed.trailing_zeros() as usize & (LANES - 1);
+            crossed &= crossed - 1;
             triangle(l, ask, groups, block, i, active, fan);
         }
     }

@@ -9,6 +9,7 @@ mod build;
 mod bundle;
 mod collect;
 mod fan;
+mod hull;
 mod lanes;
 #[cfg(target_arch = "x86_64")]
 mod lanes_avx2;

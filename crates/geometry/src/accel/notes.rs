@@ -16,6 +16,9 @@ pub struct Notes {
 }
 
 impl Notes {
+    /// Most hits that are remembered.
+    pub const MOST: usize = ROOM;
+
     /// No hit.
     pub const NONE: Self =
         Self { hits: [Hit { t: 0.0, shape: 0, prim: 0, instance: 0, u: 0.0, v: 0.0 }; ROOM], len: 0 };
@@ -36,9 +39,30 @@ impl Notes {
         self.len += 1;
     }
 
+    /// Those nearer than `t`, in the order of their distances; `None` where some found no room or their order is not certain,
+    /// also against `t`.
+    #[inline(never)]
+    pub fn in_order_before(&mut self, t: f32) -> Option<&[Hit]> {
+        if self.len as usize > ROOM {
+            return None;
+        }
+        let mut kept = 0;
+        for i in 0..self.len as usize {
+            let hit = self.hits[i];
+            if hit.t <= t {
+                self.hits[kept] = hit;
+                kept += 1;
+            }
+        }
+        self.len = kept as u32;
+        let hits = self.in_order()?;
+        let certain = hits.last().is_none_or(|last| t - last.t > NEAR * last.t);
+        certain.then_some(hits)
+    }
+
     /// All in the order of their distances; `None` where some found no room or their order is not certain, as at an edge
     /// that two primitives share.
-    #[inline(always)]
+    #[inline(never)]
     pub fn in_order(&mut self) -> Option<&[Hit]> {
         let n = self.len as usize;
         if n > ROOM {
@@ -79,6 +103,16 @@ mod tests {
         assert_eq!(order, [1.0, 2.0, 3.0]);
         notes.push(at(2.000_001));
         assert!(notes.in_order().is_none(), "two at one place");
+    }
+
+    #[test]
+    fn what_lies_beyond_is_left_out() {
+        let mut notes = Notes::NONE;
+        [3.0, 1.0, 2.0].into_iter().for_each(|t| notes.push(at(t)));
+        assert_eq!(notes.in_order_before(2.5).map(<[Hit]>::len), Some(2));
+        assert_eq!(notes.in_order_before(f32::INFINITY).map(<[Hit]>::len), Some(2));
+        assert!(notes.in_order_before(2.000_001).is_none(), "two at one place");
+        assert_eq!(notes.in_order_before(0.5).map(<[Hit]>::len), Some(0));
     }
 
     #[test]
