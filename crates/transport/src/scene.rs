@@ -146,6 +146,25 @@ impl Scene {
         if self.has_alpha { self.nearest_opaque(ray, MASK_ALL) } else { self.accel.intersect(ray) }
     }
 
+    /// The nearest surface along `ray` that a path has to stop at, with boundaries before it that it may pass by, and maybe
+    /// some behind it.
+    #[inline(always)]
+    pub fn intersect_noting(&self, ray: &Ray) -> (Option<Hit>, Notes) {
+        let mut notes = Notes::NONE;
+        if self.has_alpha || !self.has_boundaries {
+            return (self.intersect(ray), notes);
+        }
+        let met = self.accel.intersect_filtered(ray, MASK_ALL, |hit| {
+            let shape = &self.shapes[hit.shape as usize];
+            let passes = shape.material.is_interface() && shape.first_light.is_none();
+            if passes {
+                notes.push(*hit);
+            }
+            !passes
+        });
+        (met, notes)
+    }
+
     /// Whether a surface with a material lies on `ray`, and whether a boundary without one does.
     #[inline(always)]
     pub fn obstacles(&self, ray: &Ray) -> Obstacles {

@@ -13,6 +13,9 @@ const UNIFORM_SHARE: f64 = 0.02;
 /// With fewer lights of finite extent than this a tree does not pay, unless there are others at infinity.
 const FEW: usize = 3;
 
+/// With more lights than this it costs too much to sample each.
+const FEW_TO_SAMPLE: usize = 4;
+
 /// Share that lights at infinity, and the others, have at least where both send light: either may be hidden.
 const LEAST: f32 = 0.15;
 
@@ -182,6 +185,21 @@ impl LightSet {
     #[inline(always)]
     pub fn get(&self, id: LightId) -> &Light {
         &self.lights[id.index()]
+    }
+
+    /// All lights, where they are few enough to sample each of them, and how often: twice an area that is alone. `None` where
+    /// they are many, or some are media, or one sample tells all; a sky alone is met by chance as well.
+    #[inline(always)]
+    pub fn few(&self) -> Option<(&[LightId], u32)> {
+        let ids = &self.all.as_ref()?.ids;
+        if !self.volumes.is_empty() || ids.len() > FEW_TO_SAMPLE {
+            return None;
+        }
+        match &ids[..] {
+            [] => None,
+            [one] => matches!(self.get(*one), Light::Area(_)).then_some((ids, 2)),
+            _ => Some((ids, 1)),
+        }
     }
 
     /// All lights in order.
