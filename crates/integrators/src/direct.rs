@@ -13,7 +13,7 @@ use tyndall_geometry::SurfacePoint;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{
     LightId, MediumId, Scene,
-    light::{Light, Target},
+    light::{Light, Selected, Target},
     sampler::PathSampler,
 };
 
@@ -98,13 +98,60 @@ where
     let u_light = sampler.next_1d();
     let u = sampler.next_2d();
     let Some(selected) = scene.lights.select_at(vertex.p, vertex.n, u_light) else { return Spectrum::ZERO };
+    towards(scene, settings, vertex, selected, [u.x, u.y], weight, w, sampler)
+}
+
+/// `times` samples of each of a few lights at `vertex`: light per lane.
+#[inline(never)]
+pub fn each<const N: usize, S, F>(
+    scene: &Scene,
+    settings: &Settings,
+    vertex: &Scatterer<'_, '_, S, F, N>,
+    (lights, times): (&[LightId], u32),
+    weight: &PathWeight<N>,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+) -> Spectrum<N>
+where
+    S: Fn(Vec3) -> (Vec3, MediumId),
+    F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
+{
+    let mut l = Spectrum::ZERO;
+    for &id in lights {
+        for _ in 0..times {
+            let u = sampler.next_2d();
+            // samples on average in place of a probability
+            let selected = Selected { id, pmf: times as f32 };
+            l += towards(scene, settings, vertex, selected, [u.x, u.y], weight, w, sampler);
+        }
+    }
+    l
+}
+
+/// A sample of one light at `vertex`: light per lane.
+#[expect(clippy::too_many_arguments, reason = "the state of a path and of a sample")]
+#[inline(always)]
+fn towards<const N: usize, S, F>(
+    scene: &Scene,
+    settings: &Settings,
+    vertex: &Scatterer<'_, '_, S, F, N>,
+    selected: Selected,
+    u: [f32; 2],
+    weight: &PathWeight<N>,
+    w: &Wavelengths<N>,
+    sampler: &mut PathSampler,
+) -> Spectrum<N>
+where
+    S: Fn(Vec3) -> (Vec3, MediumId),
+    F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
+{
     let light = scene.lights.get(selected.id);
     if let Light::Volume(volume) = light {
         let choice = (&**volume, selected.pmf);
-        let l = ember::sample(scene, settings, vertex, choice, [u.x, u.y], weight, w, sampler);
+        let l = ember::sample(scene, settings, vertex, choice, u, weight, w, sampler);
         return l.unwrap_or(Spectrum::ZERO);
     }
-    let Some(sample) = light.sample_li(&scene.accel, vertex.p, [u.x, u.y], w) else { return Spectrum::ZERO };
+    let Some(sample) = light.sample_li(&scene.accel, vertex.p, u, w) else { return Spectrum::ZERO };
     let (f, pdf) = (vertex.eval)(sample.wi);
     if f.is_zero() {
         return Spectrum::ZERO;

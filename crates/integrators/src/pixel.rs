@@ -7,7 +7,8 @@ use crate::{
     learn::learn,
     observer::PathObserver,
     opaw::{self, AllWavelengths},
-    settings::Settings,
+    reuse::Grouping,
+    settings::{Guiding, Settings},
     swc, volpath, wang_chern,
 };
 use std::sync::Arc;
@@ -125,6 +126,8 @@ pub struct PixelPass {
     pub replicates: u32,
     /// Instructions to use: the bits are the same, as a test shows.
     pub isa: Isa,
+    /// How pixels share paths, where that pays; known once the pass has learned.
+    pub grouping: Option<Grouping>,
 }
 
 /// A sample on its way: where it started and what it draws from.
@@ -173,17 +176,22 @@ impl PixelPass {
     /// Where light comes from, for images of `resolution`; `None` where the settings do not ask for it or there is nothing
     /// to learn (see [`crate::learn`]).
     pub fn learned(&self, resolution: [u32; 2]) -> Option<Field> {
-        let steers = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero);
+        // a shared path meets more light than a steered one, for less: measured, without media both together cost more than
+        // they bring; in a mist steering keeps rare beams from being met by chance
+        let surfaces = self.scene.media.is_empty();
+        let spared = self.settings.guiding == Guiding::Auto && surfaces && self.shares_paths();
+        let steers = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero) && !spared;
         let learn = || learn(&self.scene, &self.settings, &self.wavelengths, &self.channels, resolution);
         if steers { learn() } else { None }
     }
 
-    /// The pass with what it can learn.
+    /// The pass with what it can learn: how paths are shared, and where light comes from.
     ///
     /// # Panics
     /// When the scene has another owner, too.
     #[must_use]
     pub fn learning(mut self, resolution: [u32; 2]) -> Self {
+        self.grouping = self.choose_grouping();
         let field = self.learned(resolution);
         Arc::get_mut(&mut self.scene).expect("the pass alone has the scene").guiding = field;
         self
@@ -305,7 +313,8 @@ impl PixelPass {
 
     #[inline(always)]
     pub(crate) fn start<const N: usize>(&self, x: u32, y: u32, sample: u32) -> Start<N> {
-        let Begin { ray, exposure, filter, spectrum, sampler } = self.begin(x, y, sample, None);
+        let sampler = self.sampler(x, y, sample);
+        let Begin { ray, exposure, filter, spectrum, sampler } = self.begin(x, y, sampler, None);
         let w = match &self.sharing {
             Sharing::Means(all) => all.set().group::<N>(0),
             _ => self.wavelengths.sample::<N>(spectrum.x),
@@ -313,10 +322,15 @@ impl PixelPass {
         Start { ray, exposure, weight: filter, first_distance: spectrum.y, w, sampler }
     }
 
-    /// The camera ray of a sample, at `time` or at one of its own.
+    /// The numbers that a sample draws.
     #[inline(always)]
-    pub(crate) fn begin(&self, x: u32, y: u32, sample: u32, time: Option<f32>) -> Begin {
-        let mut sampler = PathSampler::new(self.settings.sampler, self.seed, x, y, sample, self.replicates);
+    pub(crate) fn sampler(&self, x: u32, y: u32, sample: u32) -> PathSampler {
+        PathSampler::new(self.settings.sampler, self.seed, x, y, sample, self.replicates)
+    }
+
+    /// The camera ray of a sample of pixel (`x`, `y`), at `time` or at one of its own.
+    #[inline(always)]
+    pub(crate) fn begin(&self, x: u32, y: u32, mut sampler: PathSampler, time: Option<f32>) -> Begin {
         let u_film = sampler.next_2d();
         let spectrum = sampler.next_2d();
         let lens = sampler.next_2d();

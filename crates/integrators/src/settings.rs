@@ -37,6 +37,9 @@ pub struct Settings {
     pub regularize: bool,
     /// Choose directions to lights (next-event estimation), combined with chance hits.
     pub light_sampling: bool,
+    /// Where the lights are few, sample each of them at a path's first surface, not one that is drawn, and an area that is alone
+    /// twice.
+    pub each_light: bool,
     /// `exp(-sigma_t d)` on shadow rays; off: a free flight along the shadow ray that passes or does not.
     pub exact_transmittance: bool,
     /// Shadow rays through media that vary take what is certain of the extinction in closed form (residual ratio
@@ -69,6 +72,7 @@ impl Default for Settings {
             sampler: SamplerKind::OwenSobol,
             regularize: false,
             light_sampling: true,
+            each_light: true,
             exact_transmittance: true,
             residual: true,
             survival: true,

@@ -48,6 +48,9 @@ pub struct Place<'a, 's, const N: usize> {
     pub time: f32,
 }
 
+/// A medium with its coefficients.
+pub type Known<'a, 's, const N: usize> = (MediumId, &'a Inside<'s, N>);
+
 /// The far end of a shadow ray: a point on a light, or a direction to infinity.
 #[derive(Clone, Copy, Debug)]
 pub enum End {
@@ -74,10 +77,10 @@ pub fn shadow<const N: usize>(
     if obstacles.blocked {
         return None;
     }
-    past(scene, settings, ray, obstacles.boundaries, start, end, w, sampler)
+    past(scene, settings, ray, obstacles.boundaries, (start, None), end, w, sampler)
 }
 
-/// The same along a ray to `end` that nothing blocks, with the boundaries that it crosses.
+/// The same along a ray to `end` that nothing blocks, with the boundaries that it crosses; a medium on the way may be known.
 #[expect(clippy::too_many_arguments, reason = "the state of a path and of a ray")]
 #[inline(always)]
 pub fn past<const N: usize>(
@@ -85,7 +88,7 @@ pub fn past<const N: usize>(
     settings: &Settings,
     mut ray: Ray,
     mut boundaries: Notes,
-    start: Place<'_, '_, N>,
+    (start, known): (Place<'_, '_, N>, Option<Known<'_, '_, N>>),
     end: End,
     w: &Wavelengths<N>,
     sampler: &mut PathSampler,
@@ -94,7 +97,7 @@ pub fn past<const N: usize>(
     if settings.exact_transmittance
         && boundary
         && let Some(hits) = boundaries.in_order()
-        && let Some(s) = through(scene, settings, &ray, hits, start, w)
+        && let Some(s) = through(scene, settings, &ray, hits, (start, known), w)
     {
         return Some(s);
     }
@@ -125,7 +128,7 @@ fn through<const N: usize>(
     settings: &Settings,
     ray: &Ray,
     hits: &[Hit],
-    start: Place<'_, '_, N>,
+    (start, known): (Place<'_, '_, N>, Option<Known<'_, '_, N>>),
     w: &Wavelengths<N>,
 ) -> Option<Shadow<N>> {
     let mut s = Shadow::open(start.medium);
@@ -144,7 +147,10 @@ fn through<const N: usize>(
             if matches!(scene.medium(s.end), Some(Medium::Painted(_))) {
                 return None;
             }
-            inside = Inside::of(scene, s.end, w);
+            inside = match known {
+                Some((medium, inside)) if medium == s.end => Some(*inside),
+                _ => Inside::of(scene, s.end, w),
+            };
             from = to;
         }
     }

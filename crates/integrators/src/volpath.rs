@@ -5,10 +5,12 @@
 //! heuristic over techniques and wavelengths at once (see [`crate::weight`]). Media that vary in space are crossed by
 //! null collisions (see [`crate::tracking`]).
 
+mod ahead;
 mod scatter;
 mod site;
 mod varying;
 
+use ahead::Ahead;
 pub(crate) use scatter::Audience;
 pub(crate) use site::{MediumSite, Site, SurfaceSite};
 
@@ -25,7 +27,7 @@ use crate::{
 use tyndall_base::{Vec3, warp};
 use tyndall_geometry::{Hit, Ray};
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::{Interaction, MediumId, Scene, sampler::PathSampler};
+use tyndall_transport::{Interaction, LightId, MediumId, Scene, media::Medium, sampler::PathSampler};
 
 /// Boundaries without a material that a path may cross between two scatterings; more means a cycle of rounding.
 const MAX_CROSSINGS: u32 = 10_000;
@@ -69,6 +71,10 @@ pub(crate) struct Walk<'s, const N: usize> {
     settings: &'s Settings,
     w: &'s Wavelengths<N>,
     pub ray: Ray,
+    /// What lies ahead on the ray, where the path passed a boundary.
+    ahead: Option<Ahead>,
+    /// Whether boundaries may be passed by; see [`Ahead::of`].
+    certain: bool,
     /// The last scattering, from which densities of light sampling are measured.
     previous: Vec3,
     /// Normal of the surface there, zero in a medium.
@@ -97,6 +103,8 @@ pub(crate) struct Walk<'s, const N: usize> {
     scattered_widely: bool,
     /// The pixels whose flights share the next segment's light with equiangular samples; 0 where they do not.
     pub company: usize,
+    /// How often the last scattering sampled each light; 0 where it drew one.
+    each: u32,
     /// How the light that the last scattering sent was divided, if it was.
     divided: Option<Division>,
     /// The hero is drawn anew at the first scattering, so that densities before and after it are apart.
@@ -132,6 +140,8 @@ impl<'s, const N: usize> Walk<'s, N> {
             settings,
             w,
             ray,
+            ahead: None,
+            certain: scene.has_boundaries,
             previous: ray.o,
             facing: Vec3::ZERO,
             medium,
@@ -147,6 +157,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             eta_scale: 1.0,
             scattered_widely: false,
             company: 0,
+            each: 0,
             divided: None,
             anew: false,
             l: Spectrum::ZERO,
@@ -194,8 +205,11 @@ impl<'s, const N: usize> Walk<'s, N> {
     /// One segment, to where the path scatters or passes.
     #[inline(always)]
     fn segment(&mut self, sampler: &mut PathSampler, seen: &mut impl PathObserver<N>) -> Step<'s, N> {
-        let hit = self.scene.intersect(&self.ray);
-        let t_max = hit.as_ref().map_or(f32::INFINITY, |h| h.t);
+        let ahead = match self.ahead.take() {
+            Some(ahead) => ahead,
+            None => Ahead::of(self.scene, &self.ray, &mut self.certain),
+        };
+        let t_max = ahead.distance();
         if let Some(medium) = self.inside.and_then(|inside| inside.varying) {
             if let Some(goes_on) = self.travel(medium, t_max, sampler, seen) {
                 return if goes_on { Step::On } else { Step::End };
@@ -212,12 +226,15 @@ impl<'s, const N: usize> Walk<'s, N> {
                 self.pass(&inside, t_max);
             }
         }
-        match hit {
+        if let Some(hit) = ahead.boundary() {
+            return if self.pass_by(ahead, &hit, seen) { Step::On } else { Step::End };
+        }
+        match ahead.met {
             None => {
                 self.escape(seen);
                 Step::End
             }
-            Some(hit) => self.surface(&hit, sampler, seen),
+            Some(hit) => self.surface(&ahead, &hit, sampler, seen),
         }
     }
 
@@ -379,7 +396,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.weight.r_e = if segment.is_some() { before * to_hero } else { Spectrum::ZERO };
         self.rival = segment.map(|segment| Rival { segment, t });
         self.divided = self.division(&inside);
-        (self.previous, self.facing) = (p, Vec3::ZERO);
+        self.at(p, Vec3::ZERO);
         self.scattered_widely = true;
         let steering = Steering::in_medium((self.scene, self.settings), self.lamp, p, &inside, self.w);
         Some(Site::Medium(MediumSite { p, wo: -self.ray.d, medium: self.medium, inside, steering }))
@@ -393,10 +410,25 @@ impl<'s, const N: usize> Walk<'s, N> {
         for &id in self.scene.lights.infinite() {
             let light = self.scene.lights.get(id);
             let le = light.le_infinite(self.previous, self.ray.d, self.w);
-            let pmf = self.scene.lights.pmf_at(self.previous, self.facing, id);
-            let pdf = pmf * light.pdf_infinite(self.previous, self.ray.d);
+            let pdf = self.pmf(id) * light.pdf_infinite(self.previous, self.ray.d);
             let r = self.weight.r_u + self.weight.r_l * self.by_light(pdf);
             self.add(self.weight.beta * le, r, seen);
+        }
+    }
+
+    /// The path scatters at `p`; `n` is the normal of a surface, zero in a medium.
+    #[inline(always)]
+    fn at(&mut self, p: Vec3, n: Vec3) {
+        (self.previous, self.facing, self.each) = (p, n, 0);
+    }
+
+    /// Samples of the light `id` that the last scattering took, on average.
+    #[inline(always)]
+    fn pmf(&self, id: LightId) -> f32 {
+        if self.each > 0 {
+            self.each as f32
+        } else {
+            self.scene.lights.pmf_at(self.previous, self.facing, id)
         }
     }
 
@@ -410,14 +442,15 @@ impl<'s, const N: usize> Walk<'s, N> {
     #[inline(always)]
     fn surface(
         &mut self,
+        ahead: &Ahead,
         hit: &Hit,
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
     ) -> Step<'s, N> {
-        let isect = self.scene.interaction(&self.ray, hit);
+        let (isect, t) = (self.scene.interaction(&ahead.ray, hit), hit.t - ahead.at);
         self.emitted(hit, &isect, seen);
         if isect.material.is_interface() {
-            return if self.cross(&isect, hit.t, seen) { Step::On } else { Step::End };
+            return if self.cross(&isect, t, seen) { Step::On } else { Step::End };
         }
         let material = &self.scene.materials[isect.material.index()];
         let (frame, mut bsdf) = material.shade(&isect.surface, self.w);
@@ -428,7 +461,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             bsdf = bsdf.regularized();
         }
         let wo = frame.to_local(-self.ray.d);
-        self.watch_surface(&isect, frame.z, hit.t, seen);
+        self.watch_surface(&isect, frame.z, t, seen);
         if self.depth >= self.settings.max_depth {
             return Step::End;
         }
@@ -437,7 +470,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.weight.r_e = Spectrum::ZERO;
         self.rival = None;
         self.divided = None;
-        (self.previous, self.facing) = (isect.surface.p, isect.surface.ng);
+        self.at(isect.surface.p, isect.surface.ng);
         let n = if wo.z < 0.0 { -frame.z } else { frame.z };
         let steering = Steering::on_surface(
             (self.scene, self.settings),
@@ -471,8 +504,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         let mut r = self.weight.r_u;
         if self.settings.light_sampling && !(self.weight.r_l.is_zero() && self.weight.r_e.is_zero()) {
             let target = light.target(&self.scene.accel, hit, s);
-            let pdf = self.scene.lights.pmf_at(self.previous, self.facing, id)
-                * light.pdf_li(&self.scene.accel, self.previous, self.ray.d, &target);
+            let pdf = self.pmf(id) * light.pdf_li(&self.scene.accel, self.previous, self.ray.d, &target);
             r += self.weight.r_l * pdf;
             if let Some(rival) = &self.rival {
                 r += self.weight.r_e * rival.density(self.scene, id, &target);
@@ -490,10 +522,40 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.crossings <= MAX_CROSSINGS
     }
 
+    /// Passes a boundary on its way to what lies ahead.
+    #[inline(never)]
+    fn pass_by<O: PathObserver<N>>(&mut self, mut ahead: Ahead, hit: &Hit, seen: &mut O) -> bool {
+        if O::WANTS_VERTICES {
+            let s = self.scene.accel.surface(&ahead.ray, hit);
+            self.watch(Event::Boundary, s.p, s.ng, hit.t - ahead.at, Spectrum::ONE, seen);
+        }
+        self.crossings += 1;
+        ahead.pass(hit);
+        self.ray.o = ahead.ray.at(ahead.at);
+        let medium = self.scene.medium_behind(&ahead.ray, hit, self.medium);
+        if medium != self.medium {
+            self.medium = medium;
+            self.inside = if matches!(self.scene.medium(medium), Some(Medium::Painted(_))) {
+                let entry = self.scene.accel.surface(&ahead.ray, hit);
+                Inside::entered(self.scene, medium, Some(&entry), self.w)
+            } else {
+                Inside::of(self.scene, medium, self.w)
+            };
+        }
+        self.ahead = Some(ahead);
+        self.crossings <= MAX_CROSSINGS
+    }
+
+    /// The path turns to another ray.
+    #[inline(always)]
+    fn turn(&mut self, o: Vec3, d: Vec3) {
+        self.ray = Ray { time: self.ray.time, ..Ray::new(o, d) };
+    }
+
     /// Continues from a surface along `d`, in the medium there.
     #[inline(always)]
     fn go(&mut self, isect: &Interaction<'_>, d: Vec3) {
-        self.ray = Ray { time: self.ray.time, ..Ray::new(isect.surface.origin(d), d) };
+        self.turn(isect.surface.origin(d), d);
         let medium = isect.medium_towards(d, self.medium);
         if medium != self.medium {
             self.medium = medium;

@@ -133,6 +133,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         seed,
         replicates,
         isa: isa(options.dispatch)?,
+        grouping: None,
     }
     .learning(loaded.film.resolution);
     Arc::make_mut(&mut job.film).square = pass.shared_side();

@@ -1,6 +1,6 @@
 //! All who share what scatters at one point: how much of it each gets.
 
-use super::{MEMBERS, end::Link};
+use super::{MOST, end::Link, nobody};
 use crate::{
     steer::mixed,
     volpath::{Audience, MediumSite},
@@ -10,7 +10,9 @@ use tyndall_spectral::{Spectrum, Wavelengths};
 
 /// The links of one shared point.
 pub(super) struct Company<const N: usize> {
-    links: [Option<Link<N>>; MEMBERS],
+    links: [Option<Link<N>>; MOST],
+    /// How many there may be.
+    most: usize,
     /// Sums over all links.
     pub through: Spectrum<N>,
     pub density: Spectrum<N>,
@@ -21,12 +23,13 @@ pub(super) struct Company<const N: usize> {
 }
 
 impl<const N: usize> Company<N> {
-    /// Nobody.
+    /// Nobody yet, of `most` who may join.
     #[inline(always)]
-    pub fn empty() -> Self {
+    pub fn empty(most: usize) -> Self {
         let zero = Spectrum::ZERO;
         Self {
-            links: [None; MEMBERS],
+            links: nobody(),
+            most,
             through: zero,
             density: zero,
             lit: (Vec3::ZERO, zero),
@@ -46,7 +49,7 @@ impl<const N: usize> Company<N> {
     #[inline(always)]
     pub fn deal(&self, l: Spectrum<N>, mut give: impl FnMut(usize, Spectrum<N>)) {
         let l = l.safe_div(self.through);
-        for i in 0..MEMBERS {
+        for i in 0..self.most {
             if let Some(link) = &self.links[i] {
                 give(i, l * link.through);
             }
@@ -69,7 +72,7 @@ impl<const N: usize> Company<N> {
             }
             let (all, _) = self.sums(at, wi, w);
             let l = l.safe_div(all);
-            for i in 0..MEMBERS {
+            for i in 0..self.most {
                 if let Some(link) = &self.links[i] {
                     give(i, l * link.through * at.inside.phase.eval(link.wo, wi, w));
                 }
@@ -81,7 +84,7 @@ impl<const N: usize> Company<N> {
     #[inline(always)]
     fn sums(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
         let (mut through, mut density) = (Spectrum::ZERO, Spectrum::ZERO);
-        for i in 0..MEMBERS {
+        for i in 0..self.most {
             if let Some(link) = &self.links[i] {
                 let phase = at.inside.phase.eval(link.wo, wi, w);
                 through += link.through * phase;

@@ -4,29 +4,20 @@ use crate::{
     glow::openness,
     medium::Inside,
     settings::Settings,
-    shadow::{End, Place, Shadow, past},
+    shadow::{End, Known, Place, Shadow, past},
     volpath::{Site, Walk},
     weight::exp,
 };
 use tyndall_base::Vec3;
-use tyndall_geometry::{Notes, Ray, SurfacePoint};
+use tyndall_geometry::{Notes, Ray, SurfacePoint, surface::segment};
 use tyndall_scatter::bsdf::{Bsdf, BsdfFlags};
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::{Scene, light::Target, sampler::PathSampler};
+use tyndall_transport::{MediumId, Scene, light::Target, sampler::PathSampler};
 
 /// Media whose phase functions are narrower send too little to the points of others.
 const LEAST_OPEN: f32 = 0.1;
 
 impl<const N: usize> Site<'_, N> {
-    /// The point \[m\].
-    #[inline(always)]
-    pub fn p(&self) -> Vec3 {
-        match self {
-            Self::Medium(at) => at.p,
-            Self::Surface(at) => at.isect.surface.p,
-        }
-    }
-
     /// Whether paths of others may begin here: what scatters leaves all directions open.
     #[inline(always)]
     pub fn may_begin(&self, w: &Wavelengths<N>) -> bool {
@@ -45,15 +36,6 @@ impl<const N: usize> Site<'_, N> {
         }
     }
 
-    /// Where a ray towards `wi` starts.
-    #[inline(always)]
-    fn spawn(&self, wi: Vec3) -> Vec3 {
-        match self {
-            Self::Medium(at) => at.p,
-            Self::Surface(at) => at.spawn(wi).0,
-        }
-    }
-
     /// What is left of light along `ray`, which nothing blocks, to `target`; with the `boundaries` that it crosses.
     #[inline(always)]
     fn sees(
@@ -61,7 +43,7 @@ impl<const N: usize> Site<'_, N> {
         (scene, settings): (&Scene, &Settings),
         ray: Ray,
         boundaries: Notes,
-        target: Target,
+        (target, known): (Target, Option<Known<'_, '_, N>>),
         w: &Wavelengths<N>,
         sampler: &mut PathSampler,
     ) -> Option<Shadow<N>> {
@@ -79,15 +61,52 @@ impl<const N: usize> Site<'_, N> {
             }
         };
         let place = Place { medium, inside, time: ray.time };
-        past(scene, settings, ray, boundaries, place, End::At(target), w, sampler)
+        past(scene, settings, ray, boundaries, (place, known), End::At(target), w, sampler)
+    }
+}
+
+/// A first scattering that paths of others may begin at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Origin<'s, const N: usize> {
+    site: Site<'s, N>,
+    /// The throughput there.
+    beta: Spectrum<N>,
+    p: Vec3,
+    /// Normal of the surface, zero in a medium; where rays start that leave to its side, and to the other.
+    n: Vec3,
+    starts: [Vec3; 2],
+}
+
+impl<'s, const N: usize> Origin<'s, N> {
+    /// The site, which a path reached with the throughput `beta`.
+    #[inline(always)]
+    pub fn new(site: &Site<'s, N>, beta: Spectrum<N>) -> Self {
+        let (p, n, starts) = match site {
+            Site::Medium(at) => (at.p, Vec3::ZERO, [at.p; 2]),
+            Site::Surface(at) => {
+                let s = &at.isect.surface;
+                (s.p, s.ng, [s.origin(s.ng), s.origin(-s.ng)])
+            }
+        };
+        Self { site: *site, beta, p, n, starts }
+    }
+
+    /// Where a ray towards `wi` starts.
+    #[inline(always)]
+    fn start(&self, wi: Vec3) -> Vec3 {
+        if self.n.dot(wi) < 0.0 { self.starts[1] } else { self.starts[0] }
     }
 }
 
 /// A second scattering that others may go on from: a point of a medium, or a surface that sends the same light in all
 /// directions on its side.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shared<const N: usize> {
+pub(super) struct Shared<'s, const N: usize> {
     target: Target,
+    /// The medium that its path came through.
+    medium: Option<(MediumId, Inside<'s, N>)>,
+    /// Where rays to the point end.
+    end: Vec3,
     time: f32,
     /// Geometric and shading normal of a surface on the side that the path came from.
     facing: Option<[Vec3; 2]>,
@@ -109,31 +128,34 @@ pub(super) struct Link<const N: usize> {
     pub wo: Vec3,
 }
 
-impl<const N: usize> Shared<N> {
+impl<'s, const N: usize> Shared<'s, N> {
     /// The site that `walk` reached from `from`, if others may go on from it.
     #[inline(always)]
-    pub fn new(walk: &Walk<'_, N>, from: &Site<'_, N>, at: &Site<'_, N>) -> Option<Self> {
+    pub fn new(walk: &Walk<'_, N>, from: &Origin<'_, N>, at: &Site<'s, N>) -> Option<Self> {
         let mut shared = match at {
             Site::Medium(at) => {
                 if openness(at.inside.phase, walk.w()) < LEAST_OPEN {
                     return None;
                 }
                 let (density, scattering) = (at.inside.sigma_t, at.inside.sigma_s);
-                let target = Target::free(at.p);
-                Self { target, time: walk.ray.time, facing: None, density, scattering, own: 0.0 }
+                let (target, time) = (Target::free(at.p), walk.ray.time);
+                let medium = Some((at.medium, at.inside));
+                Self { target, medium, end: at.p, time, facing: None, density, scattering, own: 0.0 }
             }
             Site::Surface(at) => {
                 let Bsdf::Diffuse(_) = at.bsdf else { return None };
                 let SurfacePoint { p, rounding, ng, .. } = at.isect.surface;
                 let facing = Some([ng, at.frame.z].map(|n| if n.dot(walk.ray.d) < 0.0 { n } else { -n }));
                 let target = Target { p, rounding, n: ng, pdf_area: 1.0 };
-                let one = Spectrum::ONE;
-                Self { target, time: walk.ray.time, facing, density: one, scattering: one, own: 0.0 }
+                let end = at.isect.surface.origin(-walk.ray.d);
+                let medium = at.inside.map(|inside| (at.medium, inside));
+                let (time, one) = (walk.ray.time, Spectrum::ONE);
+                Self { target, medium, end, time, facing, density: one, scattering: one, own: 0.0 }
             }
         };
-        let to = shared.target.p - from.p();
+        let to = shared.target.p - from.p;
         let r2 = to.length_squared();
-        let towards = from.eval(walk.ray.d, walk.w()).1.hero();
+        let towards = from.site.eval(walk.ray.d, walk.w()).1.hero();
         let passed = exp(Spectrum([-walk.flown()])).hero();
         shared.own = towards * passed * shared.density.hero() * shared.geometry(walk.ray.d, r2)?;
         shared.own.is_normal().then_some(shared)
@@ -161,36 +183,37 @@ impl<const N: usize> Shared<N> {
         Link { through, density, wo: -walk.ray.d }
     }
 
-    /// The point as aimed at from `from`, at which the throughput is `beta`; `None` where nothing scatters to it.
+    /// The point as aimed at from `from`; `None` where nothing scatters to it.
     #[inline(always)]
-    pub fn aim(&self, from: &Site<'_, N>, beta: Spectrum<N>, w: &Wavelengths<N>) -> Option<Aim<N>> {
-        let to = self.target.p - from.p();
+    pub fn aim(&self, from: &Origin<'_, N>, w: &Wavelengths<N>) -> Option<Aim<N>> {
+        let to = self.target.p - from.p;
         let r2 = to.length_squared();
         let wi = to * (1.0 / r2.sqrt());
         let geometry = self.geometry(wi, r2)?;
-        let (f, pdf) = from.eval(wi, w);
+        let (f, pdf) = from.site.eval(wi, w);
         // a path without throughput ends, so that its density here is zero, too
-        if (beta * f).is_zero() {
+        if (from.beta * f).is_zero() {
             return None;
         }
-        let ray = self.target.ray_from(from.spawn(wi), self.time)?;
+        let ray = segment(from.start(wi), self.end, self.time)?;
         Some(Aim { ray, wi, f: f * geometry, pdf: pdf * geometry })
     }
 
-    /// The point as reached from `from`, at which the throughput is `beta`, where nothing blocks the aim;
-    /// `boundaries` without material lie between.
+    /// The point as reached from `from`, where nothing blocks the aim; `boundaries` without material lie between.
     #[inline(always)]
     pub fn link(
         &self,
         (scene, settings): (&Scene, &Settings),
-        (from, beta): (&Site<'_, N>, Spectrum<N>),
+        from: &Origin<'_, N>,
         aim: &Aim<N>,
         boundaries: Notes,
         w: &Wavelengths<N>,
         sampler: &mut PathSampler,
     ) -> Option<Link<N>> {
-        let passed = from.sees((scene, settings), aim.ray, boundaries, self.target, w, sampler)?;
-        let through = beta * aim.f * passed.t * self.scattering;
+        let known = self.medium.as_ref().map(|(medium, inside)| (*medium, inside));
+        let end = (self.target, known);
+        let passed = from.site.sees((scene, settings), aim.ray, boundaries, end, w, sampler)?;
+        let through = from.beta * aim.f * passed.t * self.scattering;
         if through.is_zero() {
             return None;
         }

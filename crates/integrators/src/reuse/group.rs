@@ -1,6 +1,11 @@
 //! The paths of one group.
 
-use super::{CELLS, MEMBERS, cell_side, company::Company, end::Shared};
+use super::{
+    Grouping, MOST,
+    company::Company,
+    end::{Origin, Shared},
+    nobody,
+};
 use crate::{
     glow,
     pixel::{Begin, PixelPass},
@@ -23,30 +28,29 @@ struct Member<'s, const N: usize> {
     sampler: PathSampler,
     /// Where the path scatters next.
     site: Option<Site<'s, N>>,
-    /// The first scattering and the throughput there, if others' paths may begin there.
-    from: Option<(Site<'s, N>, Spectrum<N>)>,
-    /// What the pixel gets.
-    l: Spectrum<N>,
 }
 
 /// Fills what no ray fills.
 const NOWHERE: Ray = Ray { o: Vec3::ZERO, d: Vec3::ZERO, t_max: 0.0, time: 0.0 };
 
-/// Room for the paths of a group.
-type Members<'s, const N: usize> = [Option<Member<'s, N>>; MEMBERS];
+/// First scatterings of a group, where others' paths may begin.
+type Origins<'s, const N: usize> = [Option<Origin<'s, N>>; MOST];
+/// Rays of one query.
+const FAN: usize = 16;
 
 impl PixelPass {
     /// A unit of work with paths shared.
     #[inline(always)]
     pub(crate) fn run_shared<const N: usize>(&self, unit: &WorkUnit, guide: &Guide, out: &mut Patch) {
         let mut values = vec![0.0; self.channels.len()];
-        let cell = cell_side(self.resolution);
-        for square in unit.window.tiles(CELLS * cell) {
+        let Some(grouping) = self.grouping else { return };
+        for square in unit.window.tiles(grouping.side()) {
             for sample in unit.samples.clone() {
                 let seed = self.seed as u32;
                 let deal = hash::hash4(seed, sample, square.x0, square.y0);
-                for group in 0..(cell * cell) as usize {
-                    self.group::<N>(&square, (sample, group, deal), (unit, guide), &mut values, out);
+                for group in 0..(grouping.cell * grouping.cell) as usize {
+                    let which = (sample, group, deal);
+                    self.group::<N>((&square, grouping), which, (unit, guide), &mut values, out);
                 }
             }
         }
@@ -57,167 +61,182 @@ impl PixelPass {
     #[inline(always)]
     fn group<const N: usize>(
         &self,
-        square: &PixelBounds,
+        (square, grouping): (&PixelBounds, Grouping),
         (sample, group, deal): (u32, usize, u32),
         (unit, guide): (&WorkUnit, &Guide),
         values: &mut [f32],
         out: &mut Patch,
     ) {
-        let cell = cell_side(self.resolution);
+        let (cell, number) = (grouping.cell, grouping.members());
         let (kind, (x0, y0)) = (self.settings.sampler, (square.x0, square.y0));
         let mut common = PathSampler::of_group(kind, self.seed, x0, y0, sample, self.replicates);
         let (u, time) = (common.next_1d(), common.next_1d());
         let w = self.wavelengths.sample::<N>(u);
         let takes = |(x, y)| guide.samples_for(x, y, &unit.samples).contains(&sample);
         let pixels =
-            |k| Some(pixel_of(square, (deal, cell), k, group)).filter(|&(x, y)| square.contains(x, y));
-        if guide.counts.is_some() && !(0..MEMBERS).filter_map(pixels).any(takes) {
+            |k| Some(pixel_of(square, (deal, grouping), k, group)).filter(|&(x, y)| square.contains(x, y));
+        if guide.counts.is_some() && !(0..number).filter_map(pixels).any(takes) {
             return;
         }
-        let mut members: Members<'_, N> = [const { None }; MEMBERS];
-        for k in 0..MEMBERS {
+        let mut members = nobody();
+        let mut origins: Origins<'_, N> = nobody();
+        for k in 0..number {
             if let Some((x, y)) = pixels(k) {
                 out.mark(x, y, sample);
-                members[k] = Some(self.set_out((x, y), sample, (u, time), &w));
+                let sampler = self.sampler(x, y, sample).within(
+                    (k as u32, grouping.sharers()),
+                    self.seed,
+                    // one net for the pixels that lie at the same place of their cells
+                    (x0 + (x - x0) % cell, y0 + (y - y0) % cell),
+                    sample,
+                    self.replicates,
+                );
+                let member = members[k].insert(self.set_out((x, y), sampler, (u, time), &w));
+                origins[k] = member.reach_second(number, &w);
             }
         }
-        for k in 0..MEMBERS {
-            let Some(member) = &members[k] else { continue };
+        // what the pixels get
+        let mut all = [Spectrum::ZERO; MOST];
+        for k in 0..number {
+            let Some(member) = &mut members[k] else { continue };
             out.mark(member.pixel.0, member.pixel.1, sample);
-            self.go_on(&mut members, k, &w);
+            self.go_on(member, (&origins, number), k, &w, &mut all);
         }
         let response = self.channels.prepare(&w);
-        for member in members.iter().flatten() {
+        for k in 0..number {
+            let Some(member) = &members[k] else { continue };
             let (x, y) = member.pixel;
             if !takes((x, y)) {
                 continue;
             }
-            self.channels.respond_prepared(&(member.l * member.exposure), &response, values);
+            self.channels.respond_prepared(&(all[k] * member.exposure), &response, values);
             out.add_sample(x, y, sample, member.filter, values);
         }
     }
 
-    /// Follows a path to its second scattering.
+    /// The path of a sample, about to start.
     #[inline(always)]
     fn set_out<'s, const N: usize>(
         &'s self,
         pixel: (u32, u32),
-        sample: u32,
+        sampler: PathSampler,
         (u, time): (f32, f32),
         w: &'s Wavelengths<N>,
     ) -> Member<'s, N> {
         let (scene, settings) = (&*self.scene, &self.settings);
         let Begin { ray, exposure, filter, spectrum, mut sampler } =
-            self.begin(pixel.0, pixel.1, sample, Some(time));
+            self.begin(pixel.0, pixel.1, sampler, Some(time));
         let start = (PathWeight::START, scene.camera_medium);
         let mut walk = Walk::new(scene, settings, start, ray, spectrum.y, w);
         walk.lamp = glow::lamp(scene, settings, &mut sampler);
         walk.pilot = lane_of::<N>(spectrum.x, u);
         walk.anew = true;
-        let (mut site, mut from) = (None, None);
-        if exposure != 0.0 {
-            // twice the same call would be compiled twice
-            for scatterings in 1..=2 {
-                walk.follow(&mut site, scatterings, &mut sampler, &mut ());
-                let Some(at) = site.as_ref().filter(|_| scatterings == 1) else { break };
-                walk.part();
-                if at.may_begin(w) {
-                    from = Some((*at, walk.weight.beta));
-                    walk.company = MEMBERS;
-                }
-            }
-        }
-        walk.company = 0;
-        Member { pixel, exposure, filter, walk, sampler, site, from, l: Spectrum::ZERO }
+        Member { pixel, exposure, filter, walk, sampler, site: None }
     }
 
-    /// Follows path `k` to its end; all members get their part.
+    /// Follows path `k`, that of `member`, to its end; `all` members get their part.
     #[inline(always)]
-    fn go_on<'s, const N: usize>(&self, members: &mut Members<'s, N>, k: usize, w: &Wavelengths<N>) {
-        let Some(mut member) = members[k].take() else { return };
-        let company = self.company(members, k, &mut member, w);
-        let Member { walk, site, sampler, l: gets, .. } = &mut member;
-        let Some((mut company, own)) = company else {
-            if site.is_some() {
-                walk.follow(site, u32::MAX, sampler, &mut ());
-            }
-            *gets += walk.l;
-            members[k] = Some(member);
-            return;
-        };
-        let before = walk.restart(company.through * own, company.density * own);
-        // a phase function sends each member another part of what scatters
-        let sends = match site {
-            Some(Site::Medium(at)) if !matches!(at.inside.phase, PhaseFunction::Isotropic) => Some(*at),
-            _ => None,
-        };
-        let goes_on = match &sends {
-            Some(at) => {
+    fn go_on<const N: usize>(
+        &self,
+        member: &mut Member<'_, N>,
+        origins: (&Origins<'_, N>, usize),
+        k: usize,
+        w: &Wavelengths<N>,
+        all: &mut [Spectrum<N>; MOST],
+    ) {
+        let mut company = self.company(origins, k, member, w);
+        let Member { walk, site, sampler, .. } = member;
+        let (mut sends, mut goes_on) = (None, site.is_some());
+        if let Some((company, own)) = &mut company {
+            all[k] += walk.restart(company.through * *own, company.density * *own);
+            // a phase function sends each member another part of what scatters
+            sends = match site {
+                Some(Site::Medium(at)) if !matches!(at.inside.phase, PhaseFunction::Isotropic) => Some(*at),
+                _ => None,
+            };
+            if let Some(at) = &sends {
                 *site = None;
-                walk.scatter_medium(at, &mut company, sampler, &mut ())
+                goes_on = walk.scatter_medium(at, company, sampler, &mut ());
             }
-            None => true,
-        };
+        }
         if goes_on {
             walk.follow(site, u32::MAX, sampler, &mut ());
         }
-        let l = walk.l;
-        *gets += before;
-        members[k] = Some(member);
-        let give = |i: usize, part| {
-            if let Some(member) = &mut members[i] {
-                member.l += part;
-            }
-        };
-        match &sends {
-            Some(at) => company.deal_from(at, l, w, give),
-            None => company.deal(l, give),
+        match (&company, &sends) {
+            (None, _) => all[k] += walk.l,
+            (Some((company, _)), None) => company.deal(walk.l, |i, part| all[i] += part),
+            (Some((company, _)), Some(at)) => company.deal_from(at, walk.l, w, |i, part| all[i] += part),
         }
     }
 
-    /// Who shares what path `k`, `member`, goes on from, and one over the density of that point as drawn.
+    /// Who shares what path `k`, that of `member`, goes on from, and one over the density of that point as drawn.
     #[inline(always)]
-    fn company<'s, const N: usize>(
+    fn company<const N: usize>(
         &self,
-        members: &Members<'s, N>,
+        (origins, number): (&Origins<'_, N>, usize),
         k: usize,
-        member: &mut Member<'s, N>,
+        member: &mut Member<'_, N>,
         w: &Wavelengths<N>,
     ) -> Option<(Company<N>, f32)> {
-        let (Some(at), Some((from, _))) = (&member.site, &member.from) else { return None };
+        let (Some(at), Some(from)) = (&member.site, &origins[k]) else { return None };
         let shared = Shared::new(&member.walk, from, at)?;
         let scene = (&*self.scene, &self.settings);
-        // one query for all rays to the point
-        let (mut aims, mut fan, mut n) = ([const { None }; MEMBERS], [NOWHERE; MEMBERS], 0);
-        for i in 0..MEMBERS {
-            if let Some(Member { from: Some((from, beta)), .. }) = &members[i]
-                && let Some(aim) = shared.aim(from, *beta, w)
-            {
-                fan[n] = aim.ray;
-                n += 1;
-                aims[i] = Some(aim);
-            }
-        }
-        let mut obstacles = [Obstacles::BLOCKED; MEMBERS];
-        self.scene.obstacles_fan(&fan[..n], &mut obstacles[..n]);
-        let (mut company, mut n) = (Company::empty(), 0);
-        for i in 0..MEMBERS {
-            if i == k {
-                company.join(i, shared.own_link(&member.walk));
-            } else if let (Some(aim), Some(Member { from: Some((from, beta)), .. })) = (&aims[i], &members[i])
-            {
-                let Obstacles { blocked, boundaries } = obstacles[n];
-                n += 1;
-                if blocked {
-                    continue;
-                }
-                if let Some(link) = shared.link(scene, (from, *beta), aim, boundaries, w, &mut member.sampler)
+        let mut company = Company::empty(number);
+        for first in (0..number).step_by(FAN) {
+            // one query for the rays of several members to the point
+            let (mut aims, mut fan, mut n) = ([const { None }; FAN], [NOWHERE; FAN], 0);
+            for i in 0..FAN {
+                if first + i != k
+                    && let Some(from) = &origins[first + i]
+                    && let Some(aim) = shared.aim(from, w)
                 {
-                    company.join(i, link);
+                    fan[n] = aim.ray;
+                    n += 1;
+                    aims[i] = Some(aim);
+                }
+            }
+            let mut obstacles = [Obstacles::BLOCKED; FAN];
+            self.scene.obstacles_fan(&fan[..n], &mut obstacles[..n]);
+            let mut n = 0;
+            for i in 0..FAN {
+                if first + i == k {
+                    company.join(k, shared.own_link(&member.walk));
+                } else if let (Some(aim), Some(from)) = (&aims[i], &origins[first + i]) {
+                    let Obstacles { blocked, boundaries } = obstacles[n];
+                    n += 1;
+                    if blocked {
+                        continue;
+                    }
+                    if let Some(link) = shared.link(scene, from, aim, boundaries, w, &mut member.sampler) {
+                        company.join(first + i, link);
+                    }
                 }
             }
         }
         Some((company, 1.0 / shared.own))
+    }
+}
+
+impl<'s, const N: usize> Member<'s, N> {
+    /// Follows the path, one of `number`, to its second scattering; the first, if others' paths may begin there.
+    #[inline(always)]
+    fn reach_second(&mut self, number: usize, w: &Wavelengths<N>) -> Option<Origin<'s, N>> {
+        let Self { walk, site, sampler, .. } = self;
+        let mut origin = None;
+        if self.exposure != 0.0 {
+            // twice the same call would be compiled twice
+            for scatterings in 1..=2 {
+                walk.follow(site, scatterings, sampler, &mut ());
+                let Some(at) = site.as_ref().filter(|_| scatterings == 1) else { break };
+                walk.part();
+                if at.may_begin(w) {
+                    origin = Some(Origin::new(at, walk.weight.beta));
+                    walk.company = number;
+                }
+            }
+        }
+        walk.company = 0;
+        origin
     }
 }
 
@@ -245,7 +264,8 @@ impl<const N: usize> Walk<'_, N> {
 
 /// The pixel of cell `k` that belongs to `group`, by a random order of the cell's pixels.
 #[inline(always)]
-fn pixel_of(square: &PixelBounds, (deal, cell): (u32, u32), k: usize, group: usize) -> (u32, u32) {
+fn pixel_of(square: &PixelBounds, (deal, grouping): (u32, Grouping), k: usize, group: usize) -> (u32, u32) {
+    let cell = grouping.cell;
     let mut pick = 0;
     if cell == 2 {
         let mut order = [0, 1, 2, 3];
@@ -257,7 +277,9 @@ fn pixel_of(square: &PixelBounds, (deal, cell): (u32, u32), k: usize, group: usi
         pick = order[group];
     }
     let at = |x0: u32, column: u32, within: u32| x0 + cell * column + within;
-    let (column, row) = (k as u32 % CELLS, k as u32 / CELLS);
+    // cells along Morton's curve: those of one query are neighbours
+    let bit = |i: u32| k as u32 >> i & 1;
+    let (column, row) = (bit(0) | bit(2) << 1 | bit(4) << 2, bit(1) | bit(3) << 1 | bit(5) << 2);
     (at(square.x0, column, pick % 2), at(square.y0, row, pick / 2))
 }
 

@@ -20,6 +20,7 @@
 //! Pixels of a square have errors in common. For each sample they are dealt anew to groups, one pixel of each cell to each
 //! group at random: neighbours have errors of their own and a picture has grain, not blotches.
 
+mod choose;
 mod company;
 mod end;
 mod group;
@@ -28,25 +29,72 @@ use crate::{
     pixel::{Lanes, Method, PixelPass, Sharing},
     settings::Settings,
 };
+use tyndall_base::sobol::Sharers;
 use tyndall_transport::{Scene, media::Medium};
 
-/// Cells of a square of pixels along each side: paths of one pixel of each cell are shared. The pixels of a cell never
-/// share, so that neighbours have errors of their own.
-pub const CELLS: u32 = 4;
-/// Paths that are shared.
-pub(crate) const MEMBERS: usize = (CELLS * CELLS) as usize;
-/// Films of this many pixels along both sides have cells of 2 x 2 pixels. On smaller ones, where neighbours see more
-/// different things, a cell is one pixel.
+/// Films of this many pixels along both sides have cells of 2 x 2 pixels where 4 x 4 share. On smaller ones, where
+/// neighbours see more different things, a cell is one pixel.
 const FINE: u32 = 256;
+/// The part of the light that was scattered more than once from which sharing pays, and from which many share: measured,
+/// less than this is lost in the noise of what is scattered once, and the links cost more than they bring.
+const SOME: f32 = 0.12;
+const MANY: f32 = 0.35;
+/// Most paths that are shared.
+pub(crate) const MOST: usize = 64;
 
-/// Side of the cells of a film of `resolution` pixels.
-pub(crate) fn cell_side(resolution: [u32; 2]) -> u32 {
-    if resolution[0].min(resolution[1]) < FINE { 1 } else { 2 }
+/// Room for all who may share. In a function of its own: 64 stores side by side in the loop over paths keep the compiler busy for
+/// minutes.
+#[inline(never)]
+fn nobody<T>() -> [Option<T>; MOST] {
+    [const { None }; MOST]
+}
+
+/// How pixels are grouped: a square has `cells` x `cells` cells, each of `cell` x `cell` pixels. Paths of one pixel of each
+/// cell are shared. The pixels of a cell never share, so that neighbours have errors of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grouping {
+    /// Cells of a square along each side, 4 or 8.
+    pub cells: u32,
+    /// Side of a cell \[pixels\], 1 or 2.
+    pub cell: u32,
+}
+
+impl Grouping {
+    /// For a film of `resolution` pixels, with `many` who share or few.
+    fn new(resolution: [u32; 2], many: bool) -> Self {
+        let fine = resolution[0].min(resolution[1]) >= FINE;
+        match many {
+            true => Self { cells: 8, cell: 1 },
+            false => Self { cells: 4, cell: if fine { 2 } else { 1 } },
+        }
+    }
+
+    /// Side of a square \[pixels\].
+    pub fn side(&self) -> u32 {
+        self.cells * self.cell
+    }
+
+    /// Paths of a group.
+    #[inline(always)]
+    pub(crate) fn members(&self) -> usize {
+        (self.cells * self.cells) as usize
+    }
+
+    /// How many share a net.
+    #[inline(always)]
+    pub(crate) fn sharers(&self) -> Sharers {
+        if self.cells == 8 { Sharers::SixtyFour } else { Sharers::Sixteen }
+    }
 }
 
 impl PixelPass {
     /// Whether paths of neighbouring pixels are shared.
     pub fn shares_paths(&self) -> bool {
+        self.grouping.is_some() && self.may_share_paths()
+    }
+
+    /// Whether they can be.
+    fn may_share_paths(&self) -> bool {
         // the single wavelength of a path would be that of the whole square
         let several = self.lanes != Lanes::One;
         let plain = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero);
@@ -55,7 +103,10 @@ impl PixelPass {
 
     /// Side of the squares of pixels that have errors in common, for [`tyndall_film::FilmSpec::square`]; 1 for none.
     pub fn shared_side(&self) -> u32 {
-        if self.shares_paths() { CELLS * cell_side(self.resolution) } else { 1 }
+        match &self.grouping {
+            Some(grouping) if self.may_share_paths() => grouping.side(),
+            _ => 1,
+        }
     }
 }
 

@@ -9,7 +9,6 @@ use crate::{
 };
 use std::cell::Cell;
 use tyndall_base::{Vec3, warp};
-use tyndall_geometry::Ray;
 use tyndall_scatter::bsdf::BsdfFlags;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{MediumId, sampler::PathSampler};
@@ -95,7 +94,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         if !self.weight.scatter(phase, pdf, false) {
             return false;
         }
-        self.ray = Ray { time: self.ray.time, ..Ray::new(at.p, wi) };
+        self.turn(at.p, wi);
         self.survives(sampler)
     }
 
@@ -118,7 +117,18 @@ impl<'s, const N: usize> Walk<'s, N> {
                 surface: Some(&at.isect.surface),
                 known: Place { medium: at.medium, inside: at.inside.as_ref(), time: self.ray.time },
             };
-            let value = self.direct(&vertex, sampler, seen);
+            let few =
+                if self.depth == 1 && self.settings.each_light { self.scene.lights.few() } else { None };
+            let value = match few {
+                None => self.direct(&vertex, sampler, seen),
+                Some(lights) => {
+                    let (scene, settings) = (self.scene, self.settings);
+                    let value = direct::each(scene, settings, &vertex, lights, &self.weight, self.w, sampler);
+                    self.each = lights.1;
+                    seen.contribution(self.depth, &value);
+                    value
+                }
+            };
             self.l += value;
         }
         let uc = sampler.next_1d();

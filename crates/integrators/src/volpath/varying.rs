@@ -10,7 +10,6 @@ use crate::{
     tracking::{Collision, Flight, Traveller, fly},
 };
 use tyndall_base::Vec3;
-use tyndall_geometry::Ray;
 use tyndall_spectral::Spectrum;
 use tyndall_transport::{media::Heterogeneous, sampler::PathSampler};
 
@@ -69,7 +68,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.weight.r_e = Spectrum::ZERO;
         self.rival = None;
         self.divided = None;
-        (self.previous, self.facing) = (p, Vec3::ZERO);
+        self.at(p, Vec3::ZERO);
         self.scattered_widely = true;
 
         let wo = -self.ray.d;
@@ -105,7 +104,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         if !self.weight.scatter(phase, mixed(steering.as_ref(), phase, wi), false) {
             return false;
         }
-        self.ray = Ray { time: self.ray.time, ..Ray::new(p, wi) };
+        self.turn(p, wi);
         self.survives(sampler)
     }
 }

@@ -114,6 +114,7 @@ const KNOWN: &[&str] = &[
     "roulettedepth",
     "glow",
     "guiding",
+    "eachlight",
     "pathreuse",
     "roulettethreshold",
     "samplebsdf",
@@ -211,6 +212,7 @@ fn settings(p: &ParamSet, method: Method) -> Result<Settings, Error> {
         glow: p.bool("glow", default.glow)?,
         guiding: when(p, "guiding", [Guiding::Auto, Guiding::Off, Guiding::Always])?,
         reuse: p.bool("pathreuse", default.reuse)?,
+        each_light: p.bool("eachlight", default.each_light)?,
         roulette_depth: if p.bool("russianroulette", true)? { roulette } else { u32::MAX },
         roulette_threshold: threshold,
         ..default

@@ -2,11 +2,7 @@
 
 use crate::{scenes::SmallScene, variants::Variant};
 use std::{path::Path, sync::Arc};
-use tyndall::{
-    Options, Source,
-    integrators::{pixel::PixelPass, reuse::CELLS},
-    plan,
-};
+use tyndall::{Options, Source, integrators::pixel::PixelPass, plan};
 use tyndall_engine::Job;
 use tyndall_film::{Developed, ErrorMode, Film, Guide, Pass, Patch, PixelBounds, WorkUnit};
 use tyndall_testkit::{ALPHA, distribution::student_two_sided, sidak};
@@ -61,7 +57,7 @@ fn film(pass: &PixelPass, job: &Job) -> Film {
 
 fn regions(film: &Developed) -> Means {
     let all = film.bounds;
-    let half = |length: u32| (length / 2).next_multiple_of(CELLS);
+    let half = |length: u32| (length / 2).next_multiple_of(film.square);
     let middle = [all.x0 + half(all.width()), all.y0 + half(all.height())];
     let (left, right) = (PixelBounds { x1: middle[0], ..all }, PixelBounds { x0: middle[0], ..all });
     let (upper, lower) = (PixelBounds { y1: middle[1], ..all }, PixelBounds { y0: middle[1], ..all });
