@@ -4,12 +4,13 @@
 //! four are told at once. With the corners a, b, c, a box of centre m and half extents r is on one side for certain where
 //!
 //! ```text
-//! |n . v| > |n| . r + 2^-19 A . (|v| + r + L),   v = m - a,   n = (b - a) x (c - a)
+//! |n . v| > |n| . r + 2^-19 A sum (|v| + r + L),   v = m - a,   n = (b - a) x (c - a)
 //! ```
 //!
-//! with `|n|` by axis, `A` the products of `n` added without their signs, and `L` the extents of both edges: the margin is
-//! more than all roundings here (some ten times 2^-24 of the sum) and than what the edge test may be off (`triangle.rs`), so
-//! that a ray by itself would meet none of the triangles left out either.
+//! with `|n|` by axis, `A` the products of `n` added without their signs, `L` the extents of both edges, and the sum over axes
+//! and both boxes: the margin is more than all roundings here (some ten times 2^-24 of the sum) and than what the edge test may
+//! be off (`triangle.rs`: a share of the distance from the start), so that a ray by itself would meet none of the triangles
+//! left out either.
 
 use super::bundle::{GROUP, Group};
 use super::lanes::Lanes;
@@ -49,19 +50,25 @@ impl<L: Lanes> Hull<L> {
             let (p, q) = (l.mul4(e[i], f[j]), l.mul4(e[j], f[i]));
             (n[k], size[k]) = (l.sub4(p, q), l.add4(abs(p), abs(q)));
         }
-        let (mut above, mut below) = (0xf, 0xf);
-        for [centre, half] in &self.boxes {
-            let (mut height, mut reach, mut all) = (zero, zero, zero);
+        // the edge test may be off by a share of the way from the start, so that both ends count for the margin of each
+        let (mut height, mut reach, mut all) = ([zero; 2], [zero; 2], zero);
+        for b in 0..2 {
+            let [centre, half] = &self.boxes[b];
             for k in 0..3 {
                 let v = l.sub4(centre[k], corner(0, k));
-                height = l.add4(height, l.mul4(n[k], v));
-                reach = l.add4(reach, l.mul4(abs(n[k]), half[k]));
-                all = l.add4(all, l.mul4(size[k], l.add4(l.add4(abs(v), half[k]), extent[k])));
+                height[b] = l.add4(height[b], l.mul4(n[k], v));
+                reach[b] = l.add4(reach[b], l.mul4(abs(n[k]), half[k]));
+                // along every axis: the edge test mixes them
+                let size = l.add4(size[0], l.add4(size[1], size[2]));
+                all = l.add4(all, l.mul4(size, l.add4(l.add4(abs(v), half[k]), extent[k])));
             }
-            let bound = l.add4(reach, l.mul4(all, l.splat4(MARGIN)));
+        }
+        let (mut above, mut below) = (0xf, 0xf);
+        for b in 0..2 {
+            let bound = l.add4(reach[b], l.mul4(all, l.splat4(MARGIN)));
             // NaN is on neither side
-            above &= l.le4(bound, height);
-            below &= l.le4(bound, l.sub4(zero, height));
+            above &= l.le4(bound, height[b]);
+            below &= l.le4(bound, l.sub4(zero, height[b]));
         }
         !(above | below) & 0xf
     }
