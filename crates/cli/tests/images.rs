@@ -12,7 +12,8 @@ fn json(text: &str) -> Value {
 #[test]
 fn two_seeds_agree_and_a_change_does_not() {
     let place = Place::new();
-    let tiny = "render --resolution 16x16 --spp 16 --quiet --bands 400:700:100";
+    // four squares of pixels that share paths: replicates tell their errors, bounds would hide the change
+    let tiny = "render --resolution 16x16 --spp 16 --quiet --bands 400:700:100 --errors replicated";
     place.ok(&format!("{tiny} -o a.exr"));
     place.ok(&format!("{tiny} --seed 1 -o b.exr"));
     place.ok(&format!("{tiny} --set fog.scale=0.5 -o thin.exr"));
@@ -166,10 +167,10 @@ fn regions_are_means_with_their_errors() {
     let inside = |r: &&Vec<f64>| (2.0..5.0).contains(&r[0]) && (3.0..9.0).contains(&r[1]);
     let (value, se) = (column(&header, "G [W m^-2 sr^-1]"), column(&header, "G se"));
     let sum: f64 = rows.iter().filter(inside).map(|r| r[value]).sum();
-    // pixels of a square of 4 x 4 share paths: without replicates they count as if they erred as one
+    // pixels of a square of 8 x 8 share paths: without replicates they count as if they erred as one
     let square =
-        |i: usize| rows.iter().filter(inside).filter(move |r| r[1] as usize / 4 * 4 + r[0] as usize / 4 == i);
-    let squares: f64 = (0..16).map(|i| square(i).map(|r| r[se]).sum::<f64>().powi(2)).sum();
+        |i: usize| rows.iter().filter(inside).filter(move |r| r[1] as usize / 8 * 2 + r[0] as usize / 8 == i);
+    let squares: f64 = (0..4).map(|i| square(i).map(|r| r[se]).sum::<f64>().powi(2)).sum();
     let cell = |row: usize, name: &str| regions[row][column(&names, name)];
     assert_eq!([cell(1, "x0"), cell(1, "x1"), cell(1, "y0"), cell(1, "y1")], [2.0, 5.0, 3.0, 9.0]);
     assert_eq!((cell(1, "pixels"), cell(1, "statistics.samples [1]")), (18.0, 288.0));
@@ -193,13 +194,13 @@ fn regions_of_whole_squares_are_exact() {
     };
     let (rows, header) = table(&place, "a.csv");
     let all: f64 = rows.iter().map(|r| r[column(&header, "G se")]).sum::<f64>() / 256.0;
-    let exact = se("a.film", "4,12,8,16");
-    assert_eq!(se("a.exr", "4,12,8,16"), exact);
+    let exact = se("a.film", "0,16,8,16");
+    assert_eq!(se("a.exr", "0,16,8,16"), exact);
     assert!(exact < all, "below the errors of pixels: {exact}, {all}");
-    // four single rows of two squares, as if their pixels erred as one, and the same eight columns as squares
-    assert!(se("a.exr", "4,12,9,12") > se("a.exr", "4,12,8,12"));
+    // seven rows of two squares, as if their pixels erred as one, and the same columns as squares
+    assert!(se("a.exr", "0,16,9,16") > exact);
     let text = String::from_utf8(place.read("r.csv")).expect("text");
-    assert!(text.contains("squares of 4 x 4") || text.contains("a square of 4 x 4"), "{text}");
+    assert!(text.contains("squares of 8 x 8") || text.contains("a square of 8 x 8"), "{text}");
     let diff = place.ok("diff a.exr a.film --json");
     assert!(diff.out.contains("identical"), "{}", diff.out);
 }

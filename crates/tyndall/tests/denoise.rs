@@ -54,8 +54,10 @@ fn a_box_of_fog_has_less_than_half_of_its_error() {
 /// Shared paths leave less noise, but it is alike in neighbours, where no mean over neighbours finds it.
 #[test]
 fn noise_that_neighbours_share_is_taken_out_as_far_as_it_can_be_told() {
-    let [before, after] = cleaned(&[]);
+    let ([before, after], [alone, alone_after]) = (cleaned(&[]), cleaned(&["integrator.pathreuse=false"]));
     for c in 0..3 {
-        assert!(after[c] < 0.75 * before[c], "channel {c}: {before:?} to {after:?}");
+        assert!(after[c] < before[c], "channel {c}: {before:?} to {after:?}");
+        assert!(before[c] < 0.75 * alone[c], "channel {c}: {before:?} shared, {alone:?} alone");
+        assert!(after[c] < 0.85 * alone_after[c], "channel {c}: {after:?} shared, {alone_after:?} alone");
     }
 }

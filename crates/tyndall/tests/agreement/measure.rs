@@ -13,6 +13,9 @@ const BANDS: [f32; 6] = [360.0, 454.0, 548.0, 642.0, 736.0, 830.0];
 /// The names of the first and the last.
 const OUTER: [&str; 2] = ["360-", "736-"];
 
+/// Side of the largest squares of pixels that share paths: the parts are the same for all who are compared.
+const SQUARE: u32 = 8;
+
 /// A mean over pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct Mean {
@@ -57,7 +60,7 @@ fn film(pass: &PixelPass, job: &Job) -> Film {
 
 fn regions(film: &Developed) -> Means {
     let all = film.bounds;
-    let half = |length: u32| (length / 2).next_multiple_of(film.square);
+    let half = |length: u32| (length / 2).next_multiple_of(SQUARE);
     let middle = [all.x0 + half(all.width()), all.y0 + half(all.height())];
     let (left, right) = (PixelBounds { x1: middle[0], ..all }, PixelBounds { x0: middle[0], ..all });
     let (upper, lower) = (PixelBounds { y1: middle[1], ..all }, PixelBounds { y0: middle[1], ..all });
