@@ -188,11 +188,13 @@ impl LightSet {
     }
 
     /// All lights, where they are few enough to sample each of them, and how often: twice an area that is alone. `None` where
-    /// they are many, or some are media, or one sample tells all; a sky alone is met by chance as well.
+    /// they are many, or some are media or have no power to be chosen by, or one sample tells all; a sky alone is met by chance
+    /// as well.
     #[inline(always)]
     pub fn few(&self) -> Option<(&[LightId], u32)> {
         let ids = &self.all.as_ref()?.ids;
-        if !self.volumes.is_empty() || ids.len() > FEW_TO_SAMPLE {
+        let every = ids.len() == self.lights.len();
+        if !every || !self.volumes.is_empty() || ids.len() > FEW_TO_SAMPLE {
             return None;
         }
         match &ids[..] {
