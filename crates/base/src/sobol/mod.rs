@@ -26,10 +26,9 @@ pub struct SobolIndex {
 }
 
 /// How many share a net; see [`SobolIndex::shared`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sharers {
     /// Nobody else.
-    #[default]
     One,
     /// 16.
     Sixteen,

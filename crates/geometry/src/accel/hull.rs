@@ -44,12 +44,14 @@ impl<L: Lanes> Hull<L> {
             f[k] = l.sub4(corner(2, k), corner(0, k));
             extent[k] = l.add4(abs(e[k]), abs(f[k]));
         }
-        let (mut n, mut size) = ([zero; 3], [zero; 3]);
+        let (mut n, mut products) = ([zero; 3], [zero; 3]);
         for k in 0..3 {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             let (p, q) = (l.mul4(e[i], f[j]), l.mul4(e[j], f[i]));
-            (n[k], size[k]) = (l.sub4(p, q), l.add4(abs(p), abs(q)));
+            (n[k], products[k]) = (l.sub4(p, q), l.add4(abs(p), abs(q)));
         }
+        // along every axis: the edge test mixes them
+        let size = l.add4(products[0], l.add4(products[1], products[2]));
         // the edge test may be off by a share of the way from the start, so that both ends count for the margin of each
         let (mut height, mut reach, mut all) = ([zero; 2], [zero; 2], zero);
         for b in 0..2 {
@@ -58,8 +60,6 @@ impl<L: Lanes> Hull<L> {
                 let v = l.sub4(centre[k], corner(0, k));
                 height[b] = l.add4(height[b], l.mul4(n[k], v));
                 reach[b] = l.add4(reach[b], l.mul4(abs(n[k]), half[k]));
-                // along every axis: the edge test mixes them
-                let size = l.add4(size[0], l.add4(size[1], size[2]));
                 all = l.add4(all, l.mul4(size, l.add4(l.add4(abs(v), half[k]), extent[k])));
             }
         }

@@ -17,8 +17,8 @@
 //! itself (`pilot` in `volpath`), so that where the points lie does not depend on the hero of what follows;
 //! then the weights sum to one for every hero.
 //!
-//! Pixels of a square have errors in common. For each sample they are dealt anew to groups, one pixel of each cell to each
-//! group at random: neighbours have errors of their own and a picture has grain, not blotches.
+//! Pixels of a square have errors in common. Where cells have several pixels, these are dealt anew to groups for each sample,
+//! one pixel of each cell to each group at random: neighbours have errors of their own and a picture has grain, not blotches.
 
 mod choose;
 mod company;
