@@ -423,6 +423,25 @@ mod tests {
     /// A lamp over a plain under a sky: the nearer the lamp the more it is chosen, far from it the sky; points of a medium
     /// are lit by all of the sky.
     #[test]
+    fn each_light_is_sampled_where_few_have_power() {
+        let few = |powers: &[f32]| {
+            let light = |&power: &f32| {
+                let emission = Curve::Constant(power).into();
+                Light::Distant(DistantLight { towards: vec3(0.0, 0.0, 1.0), emission })
+            };
+            let weigh = |e: &Emission| f64::from(e.continuum().eval(550.0));
+            let set = LightSet::new(powers.iter().map(light).collect(), 1.0, &weigh);
+            set.few().map(|(ids, times)| (ids.len(), times))
+        };
+        assert_eq!(few(&[1.0, 2.0]), Some((2, 1)));
+        assert_eq!(few(&[1.0; FEW_TO_SAMPLE + 1]), None);
+        // one sample tells all of a sun that is alone
+        assert_eq!(few(&[1.0]), None);
+        // a light that is never chosen is met by chance alone
+        assert_eq!(few(&[1.0, 2.0, 0.0]), None);
+    }
+
+    #[test]
     fn sky_and_lamp_share_by_what_they_send() {
         let corners = [vec3(-0.5, 2.0, -0.5), vec3(0.5, 2.0, -0.5), vec3(0.0, 2.0, 0.5)];
         let mesh = TriangleMesh::new(vec![[0, 1, 2]], corners.to_vec()).expect("valid");
