@@ -1,7 +1,7 @@
 //! The coefficients on a grid of colours, for textures.
 //!
 //! The layout is the paper's: the greatest component `z` with `x`, `y` the other two divided by it, `z` denser near 0 and 1.
-//! A layer of equal `z` is solved when first needed (some 10 ms), so a picture pays for the colours it has.
+//! A point of the grid is solved when first needed, so that a picture pays for the colours it has.
 
 use std::sync::OnceLock;
 
@@ -12,12 +12,13 @@ use crate::curve::SigmoidPolynomial;
 /// Grid points along each axis.
 const RESOLUTION: usize = 64;
 
-type Layer = Box<[[f32; 3]]>;
+/// Points of equal `z`, `[y][x]`.
+type Layer = Box<[OnceLock<[f32; 3]>]>;
 
 /// Sigmoid coefficients for RGB in \[0, 1\] by interpolation.
 pub struct RgbTable {
     quadrature: Quadrature,
-    /// `[greatest component][z]`, each filled on first use with `[y][x]`.
+    /// `[greatest component][z]`, each with room for its points once one is needed.
     layers: Vec<OnceLock<Layer>>,
 }
 
@@ -43,35 +44,37 @@ impl RgbTable {
         let [x, y] = [1, 2].map(|k| rgb[(greatest + k) % 3] / z * last);
         let zi = z_interval(z);
         let dz = (z - z_node(zi)) / (z_node(zi + 1) - z_node(zi));
-        let [low, high] = [zi, zi + 1].map(|zi| bilinear(self.layer(greatest, zi), x, y));
+        let [low, high] = [zi, zi + 1].map(|zi| self.bilinear(greatest, zi, x, y));
         SigmoidPolynomial { c: [0, 1, 2].map(|i| low[i] + dz * (high[i] - low[i])) }
     }
 
-    fn layer(&self, greatest: usize, zi: usize) -> &Layer {
-        self.layers[greatest * RESOLUTION + zi].get_or_init(|| self.solve_layer(greatest, zi))
+    fn bilinear(&self, greatest: usize, zi: usize, x: f32, y: f32) -> [f32; 3] {
+        let layer = self.layers[greatest * RESOLUTION + zi]
+            .get_or_init(|| (0..RESOLUTION * RESOLUTION).map(|_| OnceLock::new()).collect());
+        let (xi, yi) = ((x as usize).min(RESOLUTION - 2), (y as usize).min(RESOLUTION - 2));
+        let (dx, dy) = (x - xi as f32, y - yi as f32);
+        let at = |i: usize, j: usize| {
+            let (xi, yi) = (xi + i, yi + j);
+            *layer[yi * RESOLUTION + xi].get_or_init(|| self.solve(greatest, [xi, yi, zi]))
+        };
+        let ([a, b], [c, d]) = ([at(0, 0), at(1, 0)], [at(0, 1), at(1, 1)]);
+        std::array::from_fn(|k| {
+            let (low, high) = (a[k] + dx * (b[k] - a[k]), c[k] + dx * (d[k] - c[k]));
+            low + dy * (high - low)
+        })
     }
 
-    /// All colours with the greatest component `z`, each begun from its neighbour nearer to grey.
-    fn solve_layer(&self, greatest: usize, zi: usize) -> Layer {
+    /// The coefficients at a point of the grid.
+    #[cold]
+    fn solve(&self, greatest: usize, [xi, yi, zi]: [usize; 3]) -> [f32; 3] {
         // the ends are solved a little inside: a sigmoid reaches 0 and 1 only in the limit
         let z = f64::from(z_node(zi)).clamp(1e-5, 1.0 - 1e-5);
-        let mut layer = vec![[0.0f32; 3]; RESOLUTION * RESOLUTION].into_boxed_slice();
-        let mut column_start = self.quadrature.start([z; 3]);
-        for yi in (0..RESOLUTION).rev() {
-            let mut c = column_start;
-            for xi in (0..RESOLUTION).rev() {
-                let part = |i: usize| z * i as f64 / (RESOLUTION - 1) as f64;
-                let mut rgb = [z; 3];
-                rgb[(greatest + 1) % 3] = part(xi);
-                rgb[(greatest + 2) % 3] = part(yi);
-                c = self.quadrature.solve(rgb, c, Effort::TABLE);
-                if xi == RESOLUTION - 1 {
-                    column_start = c;
-                }
-                layer[yi * RESOLUTION + xi] = c.map(|v| v as f32);
-            }
-        }
-        layer
+        let part = |i: usize| z * i as f64 / (RESOLUTION - 1) as f64;
+        let mut rgb = [z; 3];
+        rgb[(greatest + 1) % 3] = part(xi);
+        rgb[(greatest + 2) % 3] = part(yi);
+        let c = self.quadrature.solve(rgb, self.quadrature.start(rgb), Effort::TABLE);
+        c.map(|v| v as f32)
     }
 }
 
@@ -86,15 +89,4 @@ fn z_interval(z: f32) -> usize {
     static NODES: OnceLock<Vec<f32>> = OnceLock::new();
     let nodes = NODES.get_or_init(|| (0..RESOLUTION).map(z_node).collect());
     nodes.partition_point(|&n| n <= z).saturating_sub(1).min(RESOLUTION - 2)
-}
-
-fn bilinear(layer: &Layer, x: f32, y: f32) -> [f32; 3] {
-    let (xi, yi) = ((x as usize).min(RESOLUTION - 2), (y as usize).min(RESOLUTION - 2));
-    let (dx, dy) = (x - xi as f32, y - yi as f32);
-    let at = |i: usize, j: usize| layer[(yi + j) * RESOLUTION + xi + i];
-    let ([a, b], [c, d]) = ([at(0, 0), at(1, 0)], [at(0, 1), at(1, 1)]);
-    std::array::from_fn(|k| {
-        let (low, high) = (a[k] + dx * (b[k] - a[k]), c[k] + dx * (d[k] - c[k]));
-        low + dy * (high - low)
-    })
 }

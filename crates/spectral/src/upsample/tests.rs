@@ -80,6 +80,18 @@ fn the_table_follows_the_solution() {
 }
 
 #[test]
+fn the_table_reaches_the_corners_of_srgb() {
+    let space = ColourSpace::get(SpaceName::Srgb);
+    let table = RgbTable::get(SpaceName::Srgb);
+    // brightest components between the table's last points, too
+    for rgb in [1.0, 0.9999, 0.998, 0.99].into_iter().flat_map(|most| grid(14, 0.0, most)) {
+        let curve = Curve::Sigmoid(table.coefficients(rgb));
+        let worst = error(rgb_of(space, &curve.times(&space.illuminant)), rgb);
+        assert!(worst < 6e-3, "{rgb:?}: {worst}");
+    }
+}
+
+#[test]
 fn coarse_nodes_are_good_enough_for_the_table() {
     let space = ColourSpace::get(SpaceName::Srgb);
     let (fine, coarse) = (Quadrature::new(space, 1), Quadrature::new(space, 5));
