@@ -9,7 +9,6 @@
 
 use crate::{
     medium::Inside,
-    observer::PathObserver,
     settings::{Equiangular, Settings},
     shadow::{End, Place, shadow},
     steer::{Steering, mixed},
@@ -274,13 +273,12 @@ pub fn sample<const N: usize>(
     at: &Origin<'_, '_, N>,
     w: &Wavelengths<N>,
     sampler: &mut PathSampler,
-    seen: &mut impl PathObserver<N>,
 ) -> Spectrum<N> {
     // the light, a point on it, and the distance
     let u_light = sampler.next_1d();
     let u_point = sampler.next_2d();
     let u_t = sampler.next_1d();
-    let value = (|| {
+    (|| {
         let id = scene.lights.select_local(u_light)?.id;
         let light = scene.lights.get(id);
         let y = light.sample_position(&scene.accel, [u_point.x, u_point.y])?;
@@ -290,9 +288,7 @@ pub fn sample<const N: usize>(
         }
         connect(scene, settings, segment, at, id, &y, t, w, sampler)
     })()
-    .unwrap_or(Spectrum::ZERO);
-    seen.contribution(at.order, &value);
-    value
+    .unwrap_or(Spectrum::ZERO)
 }
 
 /// Scatters at distance `t` towards the light point `y`.

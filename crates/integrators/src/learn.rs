@@ -61,7 +61,7 @@ pub fn learn(
         channels.respond(&particle.power, &w, &mut response);
         records.weight = response.iter().map(|r| r.abs()).sum::<f32>() / light.pmf;
         records.last = particle.ray.o;
-        let from = (PathWeight::START, particle.medium);
+        let from = (PathWeight::START, particle.medium, 0);
         volpath::li_from(scene, &settings, from, particle.ray, first, &w, &mut sampler, &mut records);
     }
     Field::new(records.of)

@@ -92,11 +92,12 @@ impl<'s, const N: usize> Inside<'s, N> {
         if settings.survival { self.sigma_t } else { self.sigma_s }
     }
 
-    /// True where nothing scatters at any wavelength: the path then passes with the transmittance as its weight instead
-    /// of drawing flights that could only end it.
+    /// True where nothing scatters at any wavelength, or nothing that scatters counts: the path then passes with the
+    /// transmittance as its weight instead of drawing flights that could only end it.
     #[inline(always)]
     pub fn only_absorbs(&self, settings: &Settings) -> bool {
-        settings.survival && settings.exact_transmittance && self.sigma_s.is_zero()
+        let passes = self.sigma_s.is_zero() || settings.max_depth == 0;
+        settings.survival && settings.exact_transmittance && passes
     }
 
     /// What the segment \[0, t\] emits towards its start: le sigma_a / sigma_t (1 - exp(-sigma_t t)), exactly.

@@ -7,11 +7,13 @@ use crate::{
     learn::learn,
     observer::PathObserver,
     opaw::{self, AllWavelengths},
+    refine::Refinement,
     reuse::Grouping,
     settings::{Guiding, Settings},
     swc, volpath, wang_chern,
+    weight::PathWeight,
 };
-use std::sync::Arc;
+use std::{cell::OnceCell, sync::Arc};
 use tyndall_base::{Vec2, vec::vec2};
 use tyndall_film::{Channels, Guide, Pass, Patch, PixelFilter, WorkUnit};
 use tyndall_geometry::Ray;
@@ -128,6 +130,8 @@ pub struct PixelPass {
     pub isa: Isa,
     /// How pixels share paths, where that pays; known once the pass has learned.
     pub grouping: Option<Grouping>,
+    /// Which pixels take the lowest orders of light from more paths; known then, too.
+    pub refinement: Refinement,
 }
 
 /// A sample on its way: where it started and what it draws from.
@@ -137,6 +141,8 @@ pub(crate) struct Start<const N: usize> {
     pub(crate) exposure: f32,
     weight: f32,
     pub(crate) first_distance: f32,
+    /// Light of fewer scatterings comes from other paths.
+    from: u32,
     pub(crate) w: Wavelengths<N>,
     pub(crate) sampler: PathSampler,
 }
@@ -191,7 +197,10 @@ impl PixelPass {
     /// When the scene has another owner, too.
     #[must_use]
     pub fn learning(mut self, resolution: [u32; 2]) -> Self {
-        self.grouping = self.choose_grouping();
+        let pilot = OnceCell::new();
+        let pilot = || *pilot.get_or_init(|| self.pilot());
+        let (grouping, refinement) = (self.choose_grouping(pilot), self.choose_refinement(pilot));
+        (self.grouping, self.refinement) = (grouping, refinement);
         let field = self.learned(resolution);
         Arc::get_mut(&mut self.scene).expect("the pass alone has the scene").guiding = field;
         self
@@ -238,9 +247,14 @@ impl PixelPass {
                     Sharing::Means(all) => self.all_wavelengths::<N>(all, x, y, sample, &mut values),
                     _ => {
                         let mut start = self.start::<N>(x, y, sample);
+                        let extra = self.refinement.of(x, y);
+                        start.from = extra.from;
                         let l = self.li(&mut start, &mut ());
                         self.channels.respond(&l, &start.w, &mut values);
                         start.expose(&mut values);
+                        if extra.paths > 0 {
+                            self.add_low_orders::<N>((x, y), sample, extra, &mut values);
+                        }
                         start.weight
                     }
                 };
@@ -319,7 +333,7 @@ impl PixelPass {
             Sharing::Means(all) => all.set().group::<N>(0),
             _ => self.wavelengths.sample::<N>(spectrum.x),
         };
-        Start { ray, exposure, weight: filter, first_distance: spectrum.y, w, sampler }
+        Start { ray, exposure, weight: filter, first_distance: spectrum.y, from: 0, w, sampler }
     }
 
     /// The numbers that a sample draws.
@@ -344,7 +358,7 @@ impl PixelPass {
 
     #[inline(always)]
     fn li<const N: usize>(&self, start: &mut Start<N>, seen: &mut impl PathObserver<N>) -> Spectrum<N> {
-        let Start { ray, first_distance, w, sampler, .. } = start;
+        let Start { ray, first_distance, from, w, sampler, .. } = start;
         if start.exposure == 0.0 {
             return Spectrum::ZERO;
         }
@@ -356,6 +370,7 @@ impl PixelPass {
             (_, Method::WangChern) => return wang_chern::li(scene, settings, *ray, w, sampler, seen),
             (_, Method::Volpath) => {}
         }
-        volpath::li(&self.scene, &self.settings, *ray, *first_distance, w, sampler, seen)
+        let begin = (PathWeight::START, scene.camera_medium, *from);
+        volpath::li_from(scene, settings, begin, *ray, first, w, sampler, seen)
     }
 }

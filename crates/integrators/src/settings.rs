@@ -59,6 +59,8 @@ pub struct Settings {
     pub guiding: Guiding,
     /// Paths of neighbouring pixels go on from each other's second scattering.
     pub reuse: bool,
+    /// Pixels at the rim of a lamp, or around a point of light in a medium, take the lowest orders of light from more paths.
+    pub refine: bool,
     /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
     pub roulette_depth: u32,
     /// A path of throughput below this is at risk.
@@ -82,6 +84,7 @@ impl Default for Settings {
             glow: true,
             guiding: Guiding::Auto,
             reuse: true,
+            refine: true,
             roulette_depth: 1,
             roulette_threshold: 0.25,
         }

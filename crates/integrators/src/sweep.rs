@@ -41,7 +41,7 @@ impl PixelPass {
                 weight.r_u[k] = 0.0;
             }
             let (ray, first) = (start.ray, start.first_distance);
-            let at = (weight, self.scene.camera_medium);
+            let at = (weight, self.scene.camera_medium, 0);
             let l = volpath::li_from(&self.scene, s, at, ray, first, &w, &mut start.sampler, &mut ());
             // the mean of the densities was taken over all lanes, of which half count
             let share = start.exposure * (GUIDES as f32 / LANES as f32);

@@ -43,16 +43,16 @@ pub fn li<const N: usize>(
     sampler: &mut PathSampler,
     seen: &mut impl PathObserver<N>,
 ) -> Spectrum<N> {
-    li_from(scene, settings, (PathWeight::START, scene.camera_medium), ray, first, w, sampler, seen)
+    li_from(scene, settings, (PathWeight::START, scene.camera_medium, 0), ray, first, w, sampler, seen)
 }
 
-/// The same with another weight, whose lanes of density zero are carried by the others, and in another medium than those
-/// at the camera.
+/// The same with another weight, whose lanes of density zero are carried by the others, in another medium than those
+/// at the camera, and without the light of fewer than `order` scatterings.
 #[inline(always)]
 pub fn li_from<const N: usize>(
     scene: &Scene,
     settings: &Settings,
-    (weight, medium): (PathWeight<N>, MediumId),
+    (weight, medium, order): (PathWeight<N>, MediumId, u32),
     ray: Ray,
     first: f32,
     w: &Wavelengths<N>,
@@ -61,6 +61,7 @@ pub fn li_from<const N: usize>(
 ) -> Spectrum<N> {
     let mut walk = Walk::new(scene, settings, (weight, medium), ray, first, w);
     walk.lamp = glow::lamp(scene, settings, sampler);
+    walk.from = order;
     walk.follow(&mut None, u32::MAX, sampler, seen);
     walk.l
 }
@@ -109,6 +110,8 @@ pub(crate) struct Walk<'s, const N: usize> {
     divided: Option<Division>,
     /// The hero is drawn anew at the first scattering, so that densities before and after it are apart.
     pub anew: bool,
+    /// Light of fewer scatterings than this is left to others.
+    pub from: u32,
     /// What the path brought so far.
     pub l: Spectrum<N>,
 }
@@ -160,6 +163,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             each: 0,
             divided: None,
             anew: false,
+            from: 0,
             l: Spectrum::ZERO,
         }
     }
@@ -253,9 +257,15 @@ impl<'s, const N: usize> Walk<'s, N> {
     /// Adds `value / mean(r)` to the pixel.
     #[inline(always)]
     fn add(&mut self, value: Spectrum<N>, r: Spectrum<N>, seen: &mut impl PathObserver<N>) {
-        let value = divide(value, r);
-        seen.contribution(self.depth, &value);
+        let value = self.counted(self.depth, divide(value, r), seen);
         self.l += value;
+    }
+
+    /// What of `value`, light of `order` scatterings, belongs to the pixel.
+    #[inline(always)]
+    fn counted(&self, order: u32, value: Spectrum<N>, seen: &mut impl PathObserver<N>) -> Spectrum<N> {
+        seen.contribution(order, &value);
+        if order < self.from { Spectrum::ZERO } else { value }
     }
 
     /// What the medium emits along the segment, in closed form.
@@ -297,7 +307,8 @@ impl<'s, const N: usize> Walk<'s, N> {
             anew: self.anew,
             division,
         };
-        self.l += equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler, seen);
+        let value = equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler);
+        self.l += self.counted(at.order, value, seen);
         if self.company > 0 { None } else { Some(segment) }
     }
 

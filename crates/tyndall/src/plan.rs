@@ -15,6 +15,7 @@ use tyndall_integrators::{
     isa::Isa,
     layers::{Aov, Layers},
     pixel::{Lanes, PixelPass},
+    refine::Refinement,
 };
 use tyndall_io::{LoadOptions, LoadedScene, load_file, load_text, scene::crop_bounds};
 use tyndall_spectral::LambdaRange;
@@ -134,6 +135,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         replicates,
         isa: isa(options.dispatch)?,
         grouping: None,
+        refinement: Refinement::default(),
     }
     .learning(loaded.film.resolution);
     Arc::make_mut(&mut job.film).square = pass.shared_side();

@@ -110,6 +110,10 @@ impl PixelPass {
                 continue;
             }
             self.channels.respond_prepared(&(all[k] * member.exposure), &response, values);
+            let extra = self.refinement.of(x, y);
+            if extra.paths > 0 {
+                self.add_low_orders::<N>((x, y), sample, extra, values);
+            }
             out.add_sample(x, y, sample, member.filter, values);
         }
     }
@@ -131,6 +135,7 @@ impl PixelPass {
         walk.lamp = glow::lamp(scene, settings, &mut sampler);
         walk.pilot = lane_of::<N>(spectrum.x, u);
         walk.anew = true;
+        walk.from = self.refinement.of(pixel.0, pixel.1).from;
         Member { pixel, exposure, filter, walk, sampler, site: None }
     }
 

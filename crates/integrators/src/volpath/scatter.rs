@@ -125,8 +125,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     let (scene, settings) = (self.scene, self.settings);
                     let value = direct::each(scene, settings, &vertex, lights, &self.weight, self.w, sampler);
                     self.each = lights.1;
-                    seen.contribution(self.depth, &value);
-                    value
+                    self.counted(self.depth, value, seen)
                 }
             };
             self.l += value;
@@ -170,8 +169,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
     {
         let value = direct::sample(self.scene, self.settings, vertex, &self.weight, self.w, sampler);
-        seen.contribution(self.depth, &value);
-        value
+        self.counted(self.depth, value, seen)
     }
 
     /// Russian roulette on the throughput the lanes agree on, and the next flight.

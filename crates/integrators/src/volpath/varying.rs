@@ -40,8 +40,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         };
         let flight = fly(medium, traveller);
         if !emitted.is_zero() {
-            seen.contribution(self.depth, &emitted);
-            self.l += emitted;
+            self.l += self.counted(self.depth, emitted, seen);
         }
         match flight {
             Flight::Through => None,

@@ -69,6 +69,13 @@ impl Projective {
         vec2(x0 + u * (x1 - x0), y1 - v * (y1 - y0))
     }
 
+    /// The window to pixels.
+    fn to_film(&self, screen: Vec2) -> Vec2 {
+        let [x0, x1, y0, y1] = self.screen;
+        let (u, v) = ((screen.x - x0) / (x1 - x0), (y1 - screen.y) / (y1 - y0));
+        vec2(u * self.resolution[0] as f32, v * self.resolution[1] as f32)
+    }
+
     /// The ray from `o` along `d`, both in camera space.
     #[inline(always)]
     fn place(&self, o: Vec3, d: Vec3, time: f32) -> Ray {
@@ -121,6 +128,21 @@ impl Camera {
         self.sample(sample).0
     }
 
+    /// Where on the film \[pixels\] a point of the scene is seen, when the shutter opens and from the middle of the lens; `None`
+    /// behind the camera, and for cameras that do not map lines to lines.
+    pub fn project(&self, p: Vec3) -> Option<Vec2> {
+        let projective = self.projective();
+        let p = projective.to_world.inverse().point(p);
+        match self {
+            Self::Perspective(c) if p.z > 0.0 => {
+                let scale = 1.0 / (p.z * c.tan_half());
+                Some(projective.to_film(vec2(p.x, p.y) * scale))
+            }
+            Self::Orthographic(_) if p.z > 0.0 => Some(projective.to_film(vec2(p.x, p.y))),
+            _ => None,
+        }
+    }
+
     /// Film resolution in pixels.
     pub fn resolution(&self) -> [u32; 2] {
         self.projective().resolution
@@ -157,6 +179,36 @@ impl Camera {
             Self::Orthographic(c) => &mut c.projective,
             Self::Spherical(c) => &mut c.projective,
             Self::Realistic(c) => &mut c.projective,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_on_a_ray_are_projected_to_where_it_starts() {
+        let to_world = Transform::look_at([1.0, 2.0, 5.0], [0.3, -0.2, 0.1], [0.0, 1.0, 0.1]).unwrap();
+        let projective = || Projective {
+            resolution: [64, 48],
+            screen: [-1.5, 1.2, -1.0, 0.8],
+            lens_radius: 0.0,
+            focal_distance: 1e6,
+            to_world: to_world.clone(),
+            motion: None,
+        };
+        let cameras = [
+            Camera::Perspective(Perspective::new(projective(), 40.0).unwrap()),
+            Camera::Orthographic(Orthographic::new(projective()).unwrap()),
+        ];
+        for camera in cameras {
+            for film in [vec2(3.25, 40.5), vec2(60.0, 1.0), vec2(32.0, 24.0)] {
+                let ray = camera.sample_ray(&CameraSample { film, lens: vec2(0.5, 0.5), time: 0.0 });
+                let seen = camera.project(ray.at(3.7)).expect("before the camera");
+                assert!((seen.x - film.x).hypot(seen.y - film.y) < 1e-3, "{seen:?} is not {film:?}");
+                assert!(camera.project(ray.at(-3.7)).is_none());
+            }
         }
     }
 }

@@ -33,7 +33,7 @@ pub use spot::SpotLight;
 pub use volume::{VolumeLight, VolumePoint};
 
 use tyndall_base::Vec3;
-use tyndall_geometry::{Accel, Hit, Ray, Rounding, SurfacePoint, segment, spawn_origin};
+use tyndall_geometry::{Accel, Bounds3, Hit, Ray, Rounding, SurfacePoint, segment, spawn_origin};
 use tyndall_spectral::{Spectrum, Wavelengths};
 
 /// Light that arrives at a reference point from a sampled direction.
@@ -254,6 +254,19 @@ impl Light {
     /// True for all that is not at infinity.
     pub const fn has_place(&self) -> bool {
         !matches!(self, Self::Distant(_)) && !self.is_sky()
+    }
+
+    /// A box that holds the light; `None` for those at infinity.
+    pub fn bounds(&self, accel: &Accel) -> Option<Bounds3> {
+        match self {
+            Self::Area(l) => Some(accel.group(l.shape).shape.prim_bounds(l.prim)),
+            Self::Volume(l) => Some(l.bounds()),
+            Self::Point(_) | Self::Spot(_) | Self::Goniometric(_) | Self::Projection(_) => {
+                let p = self.sample_position(accel, [0.5, 0.5])?.target.p;
+                Some(Bounds3::new(p, p))
+            }
+            Self::Distant(_) | Self::Infinite(_) | Self::Image(_) | Self::Portal(_) => None,
+        }
     }
 
     /// Emitted power over the light's emission spectrum: area times solid angle (times pi, the projected one).

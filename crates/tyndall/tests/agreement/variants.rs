@@ -64,6 +64,8 @@ const EVERYWHERE: &[Variant] = &[
     with_settings("path reuse off", |s| s.reuse = false, 1),
     with_settings("path reuse off, equiangular always", reuse_off_equiangular, 1),
     with_settings("one light at a time", |s| s.each_light = false, 1),
+    with_settings("no pixels refined", |s| s.refine = false, 1),
+    with_settings("no pixels refined, path reuse off", |s| (s.refine, s.reuse) = (false, false), 1),
     with_settings("guiding always", |s| s.guiding = Guiding::Always, 1),
     with_settings("guiding off", |s| s.guiding = Guiding::Off, 1),
     with_settings("guiding and glow off", |s| (s.guiding, s.glow) = (Guiding::Off, false), 1),
