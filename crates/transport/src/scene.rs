@@ -67,6 +67,8 @@ pub struct Scene {
     pub has_alpha: bool,
     /// Some material is a mix of others.
     pub has_mixes: bool,
+    /// Some material is a bump map over another.
+    pub has_bumps: bool,
     /// Where light comes from, if that was learned: steers paths, moves no mean.
     pub guiding: Option<Field>,
 }
@@ -123,6 +125,7 @@ impl Scene {
             has_boundaries: false,
             has_alpha: false,
             has_mixes: false,
+            has_bumps: false,
             guiding: None,
         }
     }
@@ -246,8 +249,11 @@ impl Scene {
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> Interaction<'_> {
         let binding = &self.shapes[hit.shape as usize];
         let light = binding.first_light.map(|first| LightId(first.0 + hit.prim));
-        let surface = self.accel.surface(ray, hit);
+        let mut surface = self.accel.surface(ray, hit);
         let material = self.material_of(binding, &surface, ray.d);
+        if self.has_bumps && !material.is_interface() && self.materials[material.index()].is_bumped() {
+            self.accel.bend(ray, hit, &mut surface);
+        }
         Interaction { surface, binding, material, light }
     }
 

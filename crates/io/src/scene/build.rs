@@ -212,6 +212,7 @@ pub fn build(
         has_boundaries,
         has_alpha,
         has_mixes: materials.table.iter().any(|m| matches!(m, Material::Mix(_))),
+        has_bumps: materials.table.iter().any(Material::is_bumped),
         guiding: None,
         shapes: groups.bindings,
         materials: materials.table,

@@ -77,6 +77,12 @@ impl Material {
         }
     }
 
+    /// Whether heights turn the normal: those ask for how the normal changes along the surface.
+    #[inline(always)]
+    pub fn is_bumped(&self) -> bool {
+        matches!(self, Self::Mapped(m) if matches!(m.relief, Relief::Heights(_)))
+    }
+
     /// Directional albedo at normal incidence, without the angular details: for the `albedo` output.
     pub fn albedo<const N: usize>(&self, s: &SurfacePoint, w: &Wavelengths<N>) -> Spectrum<N> {
         let at = TextureContext { p: s.p, n: s.ng, uv: s.uv };
