@@ -71,7 +71,7 @@ impl Material {
             Self::Dielectric(m) => m.bsdf(&at, w),
             Self::ThinDielectric(m) => m.bsdf(w),
             Self::Coated(m) => m.bsdf(&at, w, seed(s, w)),
-            Self::Hair(m) => m.bsdf(&at, w),
+            Self::Hair(m) => m.bsdf(s, w),
             Self::Measured(m) => m.bsdf(w),
             Self::Mapped(_) | Self::Mix(_) => black(),
         }
