@@ -121,6 +121,8 @@ pub struct SurfacePoint {
     pub dpdu: Vec3,
     /// Change of position with v.
     pub dpdv: Vec3,
+    /// Change of the shading normal with u and v; zero unless [`Accel::bend`](crate::Accel::bend) was asked for it.
+    pub dn: [Vec3; 2],
     /// Surface parameters or texture coordinates.
     pub uv: Vec2,
     /// The ray's time.

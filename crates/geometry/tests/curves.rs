@@ -66,6 +66,13 @@ fn rays_meet_the_band_and_nothing_else() {
                 let s = a.surface(&ray, &hit);
                 assert!((s.p - ray.at(hit.t)).length() < 1e-4 && s.ng.dot(ray.d) < -0.1, "{s:?}");
                 let v = f64::from(s.uv.y);
+                // v grows along dp/dv
+                let step = s.dpdv * 0.2;
+                let next = Ray::new(ray.o + step, ray.d);
+                if let Some(hit) = a.intersect(&next) {
+                    let more = a.surface(&next, &hit).uv.y - s.uv.y;
+                    assert!((0.0..0.4).contains(&more), "{more} at {v}");
+                }
                 assert!(((v - 0.5).abs() * width - d).abs() < 0.15 * width && s.dpdu.length() > 0.0);
                 // whatever leaves does not meet the band again
                 let up = s.spawn(vec3(0.0, 0.1, 1.0).normalize());
@@ -94,6 +101,9 @@ fn cylinders_bulge_and_ribbons_narrow() {
         let tilt = (y / 0.2) * std::f32::consts::PI;
         assert!((s.ns - vec3(0.0, tilt.sin(), tilt.cos())).length() < 1e-3, "{y}: {s:?}");
         assert!((s.uv.x - 1.3 / 3.0).abs() < 1e-4);
+        // v grows along dp/dv, which is a tangent
+        let grows = (s.uv.y - 0.5) * y;
+        assert!(s.dpdv.y * grows >= 0.0 && s.dpdv.dot(s.ns).abs() < 1e-4, "{y}: {s:?}");
     }
     // a ribbon seen at 60 degrees from its normal is half as wide
     let slanted = vec3(0.0, 0.75f32.sqrt(), 0.5);

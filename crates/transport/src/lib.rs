@@ -14,6 +14,7 @@ pub mod noise;
 pub mod sampler;
 pub mod scene;
 pub mod texture;
+pub mod touching;
 
 pub use error::TransportError;
 pub use ids::{LightId, MaterialId, MediumId};

@@ -63,10 +63,14 @@ pub struct Scene {
     pub camera_medium: MediumId,
     /// Some shape is a boundary without material.
     pub has_boundaries: bool,
+    /// Some of those may share faces.
+    pub has_touching_boundaries: bool,
     /// Some shape is seen in part only.
     pub has_alpha: bool,
     /// Some material is a mix of others.
     pub has_mixes: bool,
+    /// Some material is a bump map over another.
+    pub has_bumps: bool,
     /// Where light comes from, if that was learned: steers paths, moves no mean.
     pub guiding: Option<Field>,
 }
@@ -82,6 +86,8 @@ pub struct Interaction<'s> {
     pub material: MaterialId,
     /// The light of the primitive, if it emits.
     pub light: Option<LightId>,
+    /// The media on its two sides, where it is between different ones.
+    pub boundary: Option<Boundary>,
 }
 
 /// What lies on a shadow ray.
@@ -121,8 +127,10 @@ impl Scene {
             camera,
             camera_medium: MediumId::VACUUM,
             has_boundaries: false,
+            has_touching_boundaries: false,
             has_alpha: false,
             has_mixes: false,
+            has_bumps: false,
             guiding: None,
         }
     }
@@ -246,9 +254,19 @@ impl Scene {
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> Interaction<'_> {
         let binding = &self.shapes[hit.shape as usize];
         let light = binding.first_light.map(|first| LightId(first.0 + hit.prim));
-        let surface = self.accel.surface(ray, hit);
+        let mut surface = self.accel.surface(ray, hit);
         let material = self.material_of(binding, &surface, ray.d);
-        Interaction { surface, binding, material, light }
+        if self.has_bumps && !material.is_interface() && self.materials[material.index()].is_bumped() {
+            self.accel.bend(ray, hit, &mut surface);
+        }
+        let mut boundary = binding.boundary;
+        if self.has_touching_boundaries
+            && material.is_interface()
+            && let Some(own) = boundary
+        {
+            boundary = Some(self.joint_boundary(ray, hit, &surface, own));
+        }
+        Interaction { surface, binding, material, light, boundary }
     }
 
     /// The material that a path along `d` meets at `s`, [`MaterialId::INTERFACE`] for none; mixes are decided here.
@@ -268,14 +286,14 @@ impl Scene {
         id
     }
 
-    /// The medium behind `hit` for a ray that came through `current`.
+    /// The medium behind `hit`, a boundary that coincides with no other, for a ray that came through `current`.
     #[inline(always)]
     pub fn medium_behind(&self, ray: &Ray, hit: &Hit, current: MediumId) -> MediumId {
         let binding = &self.shapes[hit.shape as usize];
         if binding.boundary.is_none() {
             return current;
         }
-        binding.medium_beyond(self.accel.leaves_outward(ray, hit), current)
+        medium_beyond(binding.boundary, self.accel.leaves_outward(ray, hit), current)
     }
 
     /// The medium `id`, or `None` for vacuum.
@@ -289,18 +307,16 @@ impl Interaction<'_> {
     /// The medium that a ray leaving along `d` travels in; `current` is the one it came in.
     #[inline(always)]
     pub fn medium_towards(&self, d: Vec3, current: MediumId) -> MediumId {
-        self.binding.medium_beyond(d.dot(self.surface.ng) > 0.0, current)
+        medium_beyond(self.boundary, d.dot(self.surface.ng) > 0.0, current)
     }
 }
 
-impl ShapeBinding {
-    /// The medium of a ray that leaves the shape on the side of its normal, if `outward`, or on the other one.
-    #[inline(always)]
-    fn medium_beyond(&self, outward: bool, current: MediumId) -> MediumId {
-        match self.boundary {
-            None => current,
-            Some(b) if outward => b.outside,
-            Some(b) => b.inside,
-        }
+/// The medium of a ray that leaves a shape on the side of its normal, if `outward`, or on the other one.
+#[inline(always)]
+fn medium_beyond(boundary: Option<Boundary>, outward: bool, current: MediumId) -> MediumId {
+    match boundary {
+        None => current,
+        Some(b) if outward => b.outside,
+        Some(b) => b.inside,
     }
 }

@@ -23,13 +23,13 @@ mod triangle;
 pub use fan::Fan;
 
 use crate::error::GeometryError;
-use crate::shape::{LocalSurface, MASK_ALL, Shape, ShapeGroup};
+use crate::shape::{LocalSurface, MASK_ALL, Shape, ShapeGroup, unit_change};
 use crate::surface::Rounding;
 use crate::{Bounds3, Motion, Ray, SurfacePoint, Transform};
 use collect::{References, level};
 use node::Bvh;
 pub use notes::Notes;
-use tyndall_base::vec::vec2;
+use tyndall_base::{Vec3, vec::vec2};
 
 /// What [`Hit::instance`] is outside every instance.
 pub const NO_INSTANCE: u32 = u32::MAX;
@@ -255,14 +255,35 @@ impl Accel {
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let group = &self.groups[hit.shape as usize];
         let mut room = None;
-        let to_world = if hit.instance == NO_INSTANCE {
-            None
-        } else {
-            Some(self.instances[hit.instance as usize].to_world(ray.time, &mut room))
-        };
+        let to_world = self.placed(ray, hit, &mut room);
         let (o, d) = query::shape_ray(ray, to_world);
         let local = group.local_surface(hit.prim, o, d, f64::from(hit.t));
         finish(to_world.map_or(local, |t| place(&local, t)), ray.time)
+    }
+
+    /// Works out how the shading normal of `surface`, which `ray` meets at `hit`, changes along it.
+    #[inline(never)]
+    pub fn bend(&self, ray: &Ray, hit: &Hit, surface: &mut SurfacePoint) {
+        let group = &self.groups[hit.shape as usize];
+        let mut room = None;
+        let to_world = self.placed(ray, hit, &mut room);
+        let (o, d) = query::shape_ray(ray, to_world);
+        let near = f64::from(hit.t);
+        let local = group.local_surface(hit.prim, o, d, near);
+        let dn = group.normal_change(hit.prim, (o, d), near, &local);
+        surface.dn = dn.map(|dn| match to_world {
+            None => dn.round(),
+            Some(t) => unit_change(t.normal64(local.ns), t.normal64(dn)).round(),
+        });
+    }
+
+    /// The map of the hit object's space to the world; `room` holds it where it is worked out.
+    #[inline(always)]
+    fn placed<'a>(&'a self, ray: &Ray, hit: &Hit, room: &'a mut Option<Transform>) -> Option<&'a Transform> {
+        if hit.instance == NO_INSTANCE {
+            return None;
+        }
+        Some(self.instances[hit.instance as usize].to_world(ray.time, room))
     }
 
     /// Whether the ray leaves `hit` on the side that the surface's geometric normal points to: as [`Accel::surface`] tells,
@@ -328,7 +349,8 @@ fn finish(s: LocalSurface, time: f32) -> SurfacePoint {
     let (p, rounding) = Rounding::of(s.p, s.noise + s.ng.abs() * s.lift);
     let uv = vec2(s.uv[0] as f32, s.uv[1] as f32);
     let (ng, ns) = (s.ng.round(), s.ns.round());
-    SurfacePoint { p, rounding, ng, ns, dpdu: s.dpdu.round(), dpdv: s.dpdv.round(), uv, time }
+    let (dpdu, dpdv) = (s.dpdu.round(), s.dpdv.round());
+    SurfacePoint { p, rounding, ng, ns, dpdu, dpdv, dn: [Vec3::ZERO; 2], uv, time }
 }
 
 /// An object's surface in the world.

@@ -130,11 +130,14 @@ impl BilinearMesh {
         LocalSurface { p, noise, lift: 0.0, ng, ns, dpdu, dpdv, uv }
     }
 
+    /// The given normals at the corners of `prim`, if there are any.
+    pub(crate) fn corner_normals(&self, prim: u32) -> Option<[DVec3; 4]> {
+        let at = |i: u32| DVec3::from(self.n[i as usize]);
+        (!self.n.is_empty()).then(|| self.indices[prim as usize].map(at))
+    }
+
     fn shading_normal(&self, prim: u32, u: f64, v: f64, reverse: bool) -> Option<DVec3> {
-        if self.n.is_empty() {
-            return None;
-        }
-        let [n00, n10, n01, n11] = self.indices[prim as usize].map(|i| DVec3::from(self.n[i as usize]));
+        let [n00, n10, n01, n11] = self.corner_normals(prim)?;
         let n = lerp(v, lerp(u, n00, n10), lerp(u, n01, n11));
         let n = if reverse { -n } else { n };
         (n.length_squared() > 0.0).then(|| n.normalize())
@@ -280,7 +283,7 @@ impl Patch {
     }
 
     /// (u, v) where the line meets the patch, clamped to it.
-    fn parameters(&self, o: DVec3, d: DVec3, near: f64) -> (f64, f64) {
+    pub fn parameters(&self, o: DVec3, d: DVec3, near: f64) -> (f64, f64) {
         if !self.is_flat() {
             // the traversal found a hit; the first solution from there on is that one
             let range = [near - 1e-5 * near.abs(), f64::INFINITY];

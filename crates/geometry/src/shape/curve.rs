@@ -161,7 +161,7 @@ impl Curves {
         }
     }
 
-    /// The direction across the band, of the length of its width, and the normal, for a ray along `d`.
+    /// The change of position across the band with v, of the length of its width, and the normal, for a ray along `d`.
     fn across(&self, segment: &CurveSegment, met: &Met, along: DVec3, d: DVec3) -> (DVec3, DVec3) {
         let view = if self.kind == CurveKind::Ribbon { segment.normal(met.u) } else { -d };
         let across = view.cross(along);
@@ -172,22 +172,14 @@ impl Curves {
         };
         let n = along.cross(across).normalize();
         let n = if n.dot(view) < 0.0 { -n } else { n };
+        // the side on which the search finds v > 1/2
+        let across = if d.cross(along).dot(across) < 0.0 { -across } else { across };
         if self.kind != CurveKind::Cylinder {
             return (across * met.width, n);
         }
         // v = 0 and 1 are the silhouettes, where the cylinder's normal is across the view
         let (s, c) = sin_cos((met.v - 0.5) * std::f64::consts::PI);
-        let side = if self.faces_along(along, d, across) { 1.0 } else { -1.0 };
-        let turned = n * c + across * (s * side);
-        (across * (c * met.width) - n * (s * side * met.width), turned)
-    }
-
-    /// Whether `v` grows along `across`.
-    fn faces_along(&self, along: DVec3, d: DVec3, across: DVec3) -> bool {
-        let view = View::new(DVec3::default(), d, along);
-        let (t, a) = (view.turn(along), view.turn(across));
-        // the edge function of the search: positive on the side where v > 1/2
-        t.x * a.y - t.y * a.x > 0.0
+        ((across * c - n * s) * met.width, n * c + across * s)
     }
 }
 

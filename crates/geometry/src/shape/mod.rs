@@ -2,6 +2,7 @@
 //!
 //! Every shape works in `f64` on its `f32` input. A [`ShapeGroup`] is one `Shape` directive of a scene.
 
+mod bend;
 pub mod bilinear;
 pub mod curve;
 pub mod cylinder;
@@ -19,6 +20,8 @@ pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use sphere::Sphere;
 pub use triangle::TriangleMesh;
+
+pub(crate) use bend::unit_change;
 
 use crate::dvec::DVec3;
 use crate::error::{GeometryError, Place};

@@ -83,6 +83,11 @@ impl TriangleMesh {
         [self.p[a as usize], self.p[b as usize], self.p[c as usize]]
     }
 
+    /// The given normals at the corners of `prim`; there have to be some.
+    pub(crate) fn corner_normals(&self, prim: u32) -> [DVec3; 3] {
+        self.indices[prim as usize].map(|i| DVec3::from(self.n[i as usize]))
+    }
+
     /// The component of the normal of triangle `prim` along `d`, times twice the triangle's area.
     #[inline]
     pub(crate) fn normal_along(&self, prim: u32, d: DVec3) -> f64 {

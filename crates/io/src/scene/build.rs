@@ -22,6 +22,7 @@ use tyndall_transport::{
     media::Medium,
     scene::{BOUNDARY, Boundary, OPAQUE},
     texture::FloatTexture,
+    touching::may_touch,
 };
 
 /// Media by name.
@@ -207,11 +208,14 @@ pub fn build(
     let stats = accel.stats();
     let has_alpha = groups.bindings.iter().any(|b| b.alpha.is_some());
     let has_boundaries = groups.bindings.iter().any(|b| b.material.is_interface());
+    let has_touching_boundaries = has_boundaries && may_touch(&accel, &groups.bindings, world);
     let scene = Scene {
         accel,
         has_boundaries,
+        has_touching_boundaries,
         has_alpha,
         has_mixes: materials.table.iter().any(|m| matches!(m, Material::Mix(_))),
+        has_bumps: materials.table.iter().any(Material::is_bumped),
         guiding: None,
         shapes: groups.bindings,
         materials: materials.table,

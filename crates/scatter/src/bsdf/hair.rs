@@ -3,7 +3,7 @@
 //! The frame's x is along the fibre. Light is reflected (R), passes through (TT), is reflected once inside (TRT), or more
 //! often (the rest): `f |cos| = sum_p M_p(theta) A_p N_p(phi)`, with von Mises-like lobes `M_p` along the fibre, logistic
 //! lobes `N_p` round it, and attenuations `A_p` by Fresnel's equations and absorption on the way. `h` in \[-1, 1\] is
-//! where the ray meets the width of the fibre. Values are per solid angle on the sphere: the BSDF is divided by
+//! where the ray meets the width of the fibre, along the frame's y. Values are per solid angle on the sphere: the BSDF is divided by
 //! `|cos theta_i|` of the surface's normal, which the integrator multiplies again. Sources: Marschner et al. 2003;
 //! d'Eon et al. 2011; Chiang et al. 2016, *A practical and controllable hair and fur model*; constants of pbrt-v4.
 
@@ -118,7 +118,9 @@ impl<const N: usize> Hair<N> {
     fn gammas(&self, wo: Vec3) -> (f32, f32) {
         let cos_o = (1.0 - wo.x * wo.x).max(0.0).sqrt();
         let etap = (self.eta * self.eta - wo.x * wo.x).max(0.0).sqrt() / cos_o.max(1e-6);
-        (math::asin(self.h), math::asin((self.h / etap).clamp(-1.0, 1.0)))
+        // azimuths turn from y to z: seen from behind, y is on the other hand
+        let h = if wo.z < 0.0 { -self.h } else { self.h };
+        (math::asin(h), math::asin((h / etap).clamp(-1.0, 1.0)))
     }
 
     /// See [`Bsdf::eval_pdf`](super::Bsdf::eval_pdf). Each lane's density chooses lobes by its own attenuations.
@@ -271,6 +273,20 @@ mod tests {
                 }
                 assert!((total.mean() - 1.0).abs() < 0.01, "{m} {n} {wo:?}: {}", total.mean());
             }
+        }
+    }
+
+    /// A black fibre reflects from the side that faces the light: from where its normal halves the angle, at
+    /// `h = sin(45 degrees)` for light across the view.
+    #[test]
+    fn the_side_that_faces_the_light_is_bright() {
+        let y = vec3(0.0, 1.0, 0.0);
+        for z in [1.0, -1.0] {
+            let at = |h: f32| {
+                let hair = Hair::new(h, 1.55, Spectrum::<4>::splat(50.0), 0.3, 0.2, 2.0);
+                hair.eval_pdf(vec3(0.0, 0.0, z), (y + vec3(0.0, 0.0, 0.1 * z)).normalize()).0[0]
+            };
+            assert!(at(0.7) > 10.0 * at(0.0) && at(0.0) > at(-0.7), "{} {} {}", at(-0.7), at(0.0), at(0.7));
         }
     }
 

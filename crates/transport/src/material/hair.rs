@@ -2,6 +2,7 @@
 
 use super::diffuse::clamp;
 use crate::texture::{FloatTexture, SpectrumTexture, TextureContext};
+use tyndall_geometry::SurfacePoint;
 use tyndall_scatter::bsdf::{Bsdf, Hair};
 use tyndall_spectral::{Curve, Spectrum, Wavelengths};
 
@@ -39,9 +40,10 @@ pub struct HairMaterial {
 }
 
 impl HairMaterial {
-    /// The BSDF at `at`, where `uv.y` runs across the fibre.
+    /// The BSDF at `s`, where v runs across the fibre.
     #[inline(never)]
-    pub fn bsdf<const N: usize>(&self, at: &TextureContext, w: &Wavelengths<N>) -> Bsdf<'static, N> {
+    pub fn bsdf<const N: usize>(&self, s: &SurfacePoint, w: &Wavelengths<N>) -> Bsdf<'static, N> {
+        let at = &TextureContext::of(s);
         let unit = |t: &FloatTexture| t.eval(at).clamp(1e-3, 1.0);
         let (beta_m, beta_n) = (unit(&self.beta_m), unit(&self.beta_n));
         let sigma_a = match &self.colour {
@@ -52,8 +54,9 @@ impl HairMaterial {
                 sigma_a[0].sample(w) * e + sigma_a[1].sample(w) * p
             }
         };
-        // our curves' normals face the viewer, so that v runs against the frame's y
-        let h = 1.0 - 2.0 * at.uv.y;
+        // where v runs against the frame's y, the offset along that is the other one
+        let along_y = s.ns.cross(s.dpdu).dot(s.dpdv) >= 0.0;
+        let h = if along_y { 2.0 * s.uv.y - 1.0 } else { 1.0 - 2.0 * s.uv.y };
         Bsdf::Hair(Hair::new(h, self.eta.eval(at).max(1.0), sigma_a, beta_m, beta_n, self.alpha.eval(at)))
     }
 

@@ -43,15 +43,18 @@ fn from_map(image: &ImageMap, s: &SurfacePoint) -> Frame {
     if n.length_squared() > 0.0 { towards(s, s.dpdu, n) } else { local }
 }
 
+/// The frame of the surface `p + h n`, of which `p` has the shading normal n:
+/// `d(p + h n)/du = dp/du + dh/du n + h dn/du`.
 fn bumped(height: &FloatTexture, s: &SurfacePoint) -> Frame {
     let at = |p: Vec3, du: f32, dv: f32| {
         height.eval(&TextureContext { p, n: s.ng, uv: vec2(s.uv.x + du, s.uv.y + dv) })
     };
+    // the smooth surface that the shading normals belong to: without heights its normal is theirs
+    let [along_u, along_v] = [s.dpdu, s.dpdv].map(|t| t - s.ns * s.ns.dot(t));
     let here = at(s.p, 0.0, 0.0);
-    let (u, v) = (at(s.p + s.dpdu * STEP, STEP, 0.0), at(s.p + s.dpdv * STEP, 0.0, STEP));
-    // derivatives of p + h n, with the normal's own change left out
-    let dpdu = s.dpdu + s.ns * ((u - here) / STEP);
-    let dpdv = s.dpdv + s.ns * ((v - here) / STEP);
+    let (u, v) = (at(s.p + along_u * STEP, STEP, 0.0), at(s.p + along_v * STEP, 0.0, STEP));
+    let dpdu = along_u + s.ns * ((u - here) / STEP) + s.dn[0] * here;
+    let dpdv = along_v + s.ns * ((v - here) / STEP) + s.dn[1] * here;
     let n = dpdu.cross(dpdv);
     if n.length_squared() > 0.0 && n.is_finite() { towards(s, dpdu, n) } else { Frame::from_xz(s.dpdu, s.ns) }
 }
@@ -78,6 +81,7 @@ mod tests {
             ns: z,
             dpdu: vec3(2.0, 0.0, 0.0),
             dpdv: vec3(0.0, 4.0, 0.0),
+            dn: [Vec3::ZERO; 2],
             uv: vec2(0.3, 0.4),
             time: 0.0,
         }
@@ -95,5 +99,38 @@ mod tests {
         assert!(frame.x.dot(frame.z).abs() < 1e-5);
         let flat = bumped(&FloatTexture::Constant(7.0), &point());
         assert!((flat.z - vec3(0.0, 0.0, 1.0)).length() < 1e-6);
+    }
+
+    /// Without slope the normal is the shading normal, whatever the facet beneath.
+    #[test]
+    fn an_even_height_leaves_the_shading_normal() {
+        let ns = vec3(0.3, -0.2, 1.0).normalize();
+        let frame = bumped(&FloatTexture::Constant(0.7), &SurfacePoint { ns, ..point() });
+        assert!((frame.z - ns).length() < 1e-6, "{:?}", frame.z);
+    }
+
+    /// `h = k u` on a sphere of radius 2 is the surface `r = 2 + k u`: at the equator its tangents are
+    /// `(r phi-hat + dr/dphi r-hat)` and `r theta-hat`, so the slope is over the radius with the height on it.
+    #[test]
+    fn heights_on_a_sphere_are_another_radius() {
+        let mapping = Mapping::Uv { scale: [3.0, 0.0], delta: [0.0; 2] };
+        let (zero, one) = (FloatTexture::Constant(0.0), FloatTexture::Constant(1.0));
+        let ramp = FloatTexture::Mix(Arc::new((zero, one, Weight::Coordinate(mapping, 0))));
+        let (radius, turn) = (2.0, std::f32::consts::TAU);
+        let [round, up] = [vec3(0.0, turn, 0.0), vec3(0.0, 0.0, -0.5 * turn)];
+        let x = vec3(1.0, 0.0, 0.0);
+        let s = SurfacePoint {
+            ng: -x,
+            ns: -x,
+            dpdu: round * radius,
+            dpdv: up * radius,
+            dn: [-round, -up],
+            ..point()
+        };
+        // the normal points inwards, and so do heights
+        let slope = 3.0 / ((radius - 3.0 * 0.3) * turn);
+        let want = vec3(-1.0, -slope, 0.0).normalize();
+        let got = bumped(&ramp, &s).z;
+        assert!((got - want).length() < 1e-3, "{got:?} {want:?}");
     }
 }

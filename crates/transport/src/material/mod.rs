@@ -71,10 +71,16 @@ impl Material {
             Self::Dielectric(m) => m.bsdf(&at, w),
             Self::ThinDielectric(m) => m.bsdf(w),
             Self::Coated(m) => m.bsdf(&at, w, seed(s, w)),
-            Self::Hair(m) => m.bsdf(&at, w),
+            Self::Hair(m) => m.bsdf(s, w),
             Self::Measured(m) => m.bsdf(w),
             Self::Mapped(_) | Self::Mix(_) => black(),
         }
+    }
+
+    /// Whether heights turn the normal: those ask for how the normal changes along the surface.
+    #[inline(always)]
+    pub fn is_bumped(&self) -> bool {
+        matches!(self, Self::Mapped(m) if matches!(m.relief, Relief::Heights(_)))
     }
 
     /// Directional albedo at normal incidence, without the angular details: for the `albedo` output.

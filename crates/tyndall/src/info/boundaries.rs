@@ -66,7 +66,7 @@ fn follow(scene: &Scene, names: &[String], mut ray: Ray, rng: &mut Pcg32, found:
     for _ in 0..BOUNCES {
         let Some(hit) = scene.intersect(&ray) else { return };
         let isect = scene.interaction(&ray, &hit);
-        if let Some(boundary) = isect.binding.boundary {
+        if let Some(boundary) = isect.boundary {
             found.crossings += 1;
             let expected = side(&boundary, isect.surface.ng.dot(ray.d) > 0.0);
             if expected != medium {
