@@ -35,7 +35,7 @@ impl PixelPass {
             let pixel = |k: usize| (at[k] * self.resolution[k] as f32) as u32;
             let sampler = PathSampler::new(SamplerKind::OwenSobol, SEED, pixel(0), pixel(1), index, 1);
             let mut begin = self.begin(pixel(0), pixel(1), sampler, None);
-            let w = self.wavelengths.sample::<8>(begin.spectrum.x);
+            let w = self.wavelengths_of::<8>(&begin);
             let mut seen = Orders::NONE;
             self.alone(&self.settings, &mut begin, &w, &mut seen);
             light.push([seen.once, seen.again].map(|l| self.brightness(&l, &w)));

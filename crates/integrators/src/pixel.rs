@@ -17,7 +17,7 @@ use std::{cell::OnceCell, sync::Arc};
 use tyndall_base::{Vec2, vec::vec2};
 use tyndall_film::{Channels, Guide, Pass, Patch, PixelFilter, WorkUnit};
 use tyndall_geometry::Ray;
-use tyndall_spectral::{Spectrum, WavelengthSampler, Wavelengths};
+use tyndall_spectral::{Spectrum, WavelengthSampler, Wavelengths, strategy::joined};
 use tyndall_transport::{Scene, camera::CameraSample, guiding::Field, sampler::PathSampler};
 
 /// The path integrator to run.
@@ -152,8 +152,10 @@ pub(crate) struct Begin {
     pub(crate) ray: Ray,
     pub(crate) exposure: f32,
     pub(crate) filter: f32,
-    /// Numbers for the wavelengths and the first distance.
+    /// Numbers for the hero's wavelength and the first distance.
     pub(crate) spectrum: Vec2,
+    /// The number for where in their N-ths of the distribution the wavelengths lie.
+    pub(crate) within: f32,
     pub(crate) sampler: PathSampler,
 }
 
@@ -328,11 +330,12 @@ impl PixelPass {
     #[inline(always)]
     pub(crate) fn start<const N: usize>(&self, x: u32, y: u32, sample: u32) -> Start<N> {
         let sampler = self.sampler(x, y, sample);
-        let Begin { ray, exposure, filter, spectrum, sampler } = self.begin(x, y, sampler, None);
+        let begin = self.begin(x, y, sampler, None);
         let w = match &self.sharing {
             Sharing::Means(all) => all.set().group::<N>(0),
-            _ => self.wavelengths.sample::<N>(spectrum.x),
+            _ => self.wavelengths_of::<N>(&begin),
         };
+        let Begin { ray, exposure, filter, spectrum, sampler, .. } = begin;
         Start { ray, exposure, weight: filter, first_distance: spectrum.y, from: 0, w, sampler }
     }
 
@@ -340,6 +343,12 @@ impl PixelPass {
     #[inline(always)]
     pub(crate) fn sampler(&self, x: u32, y: u32, sample: u32) -> PathSampler {
         PathSampler::new(self.settings.sampler, self.seed, x, y, sample, self.replicates)
+    }
+
+    /// The wavelengths of a path that begins so.
+    #[inline(always)]
+    pub(crate) fn wavelengths_of<const N: usize>(&self, begin: &Begin) -> Wavelengths<N> {
+        self.wavelengths.sample::<N>(joined::<N>(begin.spectrum.x, begin.within))
     }
 
     /// The camera ray of a sample of pixel (`x`, `y`), at `time` or at one of its own.
@@ -350,10 +359,11 @@ impl PixelPass {
         let lens = sampler.next_2d();
         let own = sampler.next_1d();
         let time = time.unwrap_or(own);
+        let within = sampler.next_1d();
         let filter = self.filter.sample([u_film.x, u_film.y]);
         let film = vec2(x as f32 + 0.5 + filter.offset[0], y as f32 + 0.5 + filter.offset[1]);
         let (ray, exposure) = self.scene.camera.sample(&CameraSample { film, lens, time });
-        Begin { ray, exposure, filter: filter.weight, spectrum, sampler }
+        Begin { ray, exposure, filter: filter.weight, spectrum, within, sampler }
     }
 
     #[inline(always)]

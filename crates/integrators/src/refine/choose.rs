@@ -30,7 +30,7 @@ const LIGHTS: usize = 4096;
 /// Variance of one path of an ordinary pixel, over the square of the picture's mean: measured, 0.01 to 0.3.
 const USUAL: f32 = 0.1;
 /// Most paths for one sample.
-const MOST: u32 = 64;
+const MOST: u32 = 1024;
 /// All of them together are this many times fewer than the pixels, at least; a path for light that is scattered once counts
 /// for three.
 const SHARE: u64 = 4;
@@ -43,8 +43,12 @@ impl PixelPass {
         if !self.may_refine() {
             return Refinement::default();
         }
-        let candidates = self.candidates();
         let [width, height] = self.resolution;
+        let room = u64::from(width) * u64::from(height) / SHARE;
+        if room < 2 {
+            return Refinement::default();
+        }
+        let candidates = self.candidates();
         let budget = PATHS.max(width.saturating_mul(height) / PIXELS_PER_PATH);
         let each = budget.checked_div(candidates.len() as u32).unwrap_or(0).min(MANY);
         if each < FEW {
@@ -62,7 +66,6 @@ impl PixelPass {
                 varying.iter().map(|&(_, from, n)| u64::from(2 * from - 1) * u64::from(paths(n, shift)));
             all.sum()
         };
-        let room = u64::from(width) * u64::from(height) / SHARE;
         let shift = (0..=MOST.ilog2()).find(|&shift| cost(shift) <= room).unwrap_or(u32::MAX);
         let chosen = varying.iter().map(|&(at, from, n)| (at, Extra { from, paths: paths(n, shift) }));
         Refinement { pixels: chosen.filter(|(_, extra)| extra.paths > 1).collect() }
@@ -127,7 +130,7 @@ impl PixelPass {
         for index in 0..n {
             let sampler = PathSampler::new(SamplerKind::OwenSobol, SEED, x, y, index, 1);
             let mut begin = self.begin(x, y, sampler, None);
-            let w = self.wavelengths.sample::<8>(begin.spectrum.x);
+            let w = self.wavelengths_of::<8>(&begin);
             let l = self.alone(&settings, &mut begin, &w, &mut Orders::NONE);
             let l = f64::from(self.brightness(&l, &w));
             if l.is_finite() {

@@ -14,7 +14,7 @@ mod choose;
 
 use crate::{
     pilot::Orders,
-    pixel::{Begin, Method, PixelPass, Sharing},
+    pixel::{Method, PixelPass, Sharing},
     settings::Settings,
 };
 use tyndall_film::Weights;
@@ -82,8 +82,7 @@ impl PixelPass {
             let sampler =
                 PathSampler::new(self.settings.sampler, self.seed ^ STREAM, x, y, index, self.replicates);
             let mut begin = self.begin(x, y, sampler, None);
-            let Begin { spectrum, .. } = begin;
-            let w = self.wavelengths.sample::<N>(spectrum.x);
+            let w = self.wavelengths_of::<N>(&begin);
             let l = self.alone(&settings, &mut begin, &w, &mut Orders::NONE);
             self.channels.respond(&l, &w, &mut part);
             values.iter_mut().zip(&part).for_each(|(v, p)| *v += p / extra.paths as f32);
