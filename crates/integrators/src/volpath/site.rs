@@ -71,6 +71,7 @@ impl<const N: usize> SurfaceSite<'_, N> {
 
 /// Either.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a path has one at a time, and most are surfaces")]
 pub(crate) enum Site<'s, const N: usize> {
     /// In a medium.
     Medium(MediumSite<'s, N>),
