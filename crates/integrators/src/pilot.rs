@@ -36,7 +36,7 @@ impl PixelPass {
             let sampler = PathSampler::new(SamplerKind::OwenSobol, SEED, pixel(0), pixel(1), index, 1);
             let mut begin = self.begin(pixel(0), pixel(1), sampler, None);
             let w = self.wavelengths_of::<8>(&begin);
-            let mut seen = Orders::NONE;
+            let mut seen = Orders::none();
             self.alone(&self.settings, &mut begin, &w, &mut seen);
             light.push([seen.once, seen.again].map(|l| self.brightness(&l, &w)));
         }
@@ -85,7 +85,9 @@ pub(crate) struct Orders<const N: usize> {
 }
 
 impl<const N: usize> Orders<N> {
-    pub const NONE: Self = Self { once: Spectrum::ZERO, again: Spectrum::ZERO };
+    pub const fn none() -> Self {
+        Self { once: Spectrum::ZERO, again: Spectrum::ZERO }
+    }
 }
 
 impl<const N: usize> PathObserver<N> for Orders<N> {

@@ -17,7 +17,7 @@ use std::{cell::OnceCell, sync::Arc};
 use tyndall_base::{Vec2, vec::vec2};
 use tyndall_film::{Channels, Guide, Pass, Patch, PixelFilter, WorkUnit};
 use tyndall_geometry::Ray;
-use tyndall_spectral::{Spectrum, WavelengthSampler, Wavelengths, strategy::joined};
+use tyndall_spectral::{Spectrum, WavelengthSampler, Wavelengths};
 use tyndall_transport::{Scene, camera::CameraSample, guiding::Field, sampler::PathSampler};
 
 /// The path integrator to run.
@@ -152,10 +152,8 @@ pub(crate) struct Begin {
     pub(crate) ray: Ray,
     pub(crate) exposure: f32,
     pub(crate) filter: f32,
-    /// Numbers for the hero's wavelength and the first distance.
+    /// Numbers for the wavelengths and the first distance.
     pub(crate) spectrum: Vec2,
-    /// The number for where in their N-ths of the distribution the wavelengths lie.
-    pub(crate) within: f32,
     pub(crate) sampler: PathSampler,
 }
 
@@ -335,7 +333,7 @@ impl PixelPass {
             Sharing::Means(all) => all.set().group::<N>(0),
             _ => self.wavelengths_of::<N>(&begin),
         };
-        let Begin { ray, exposure, filter, spectrum, sampler, .. } = begin;
+        let Begin { ray, exposure, filter, spectrum, sampler } = begin;
         Start { ray, exposure, weight: filter, first_distance: spectrum.y, from: 0, w, sampler }
     }
 
@@ -348,7 +346,7 @@ impl PixelPass {
     /// The wavelengths of a path that begins so.
     #[inline(always)]
     pub(crate) fn wavelengths_of<const N: usize>(&self, begin: &Begin) -> Wavelengths<N> {
-        self.wavelengths.sample::<N>(joined::<N>(begin.spectrum.x, begin.within))
+        self.wavelengths.sample::<N>(begin.spectrum.x)
     }
 
     /// The camera ray of a sample of pixel (`x`, `y`), at `time` or at one of its own.
@@ -359,11 +357,10 @@ impl PixelPass {
         let lens = sampler.next_2d();
         let own = sampler.next_1d();
         let time = time.unwrap_or(own);
-        let within = sampler.next_1d();
         let filter = self.filter.sample([u_film.x, u_film.y]);
         let film = vec2(x as f32 + 0.5 + filter.offset[0], y as f32 + 0.5 + filter.offset[1]);
         let (ray, exposure) = self.scene.camera.sample(&CameraSample { film, lens, time });
-        Begin { ray, exposure, filter: filter.weight, spectrum, within, sampler }
+        Begin { ray, exposure, filter: filter.weight, spectrum, sampler }
     }
 
     #[inline(always)]

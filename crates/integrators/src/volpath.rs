@@ -288,11 +288,11 @@ impl<'s, const N: usize> Walk<'s, N> {
         if self.depth >= self.settings.max_depth {
             return None;
         }
-        if self.settings.equiangular == Equiangular::Auto && self.depth > self.settings.equiangular_depth {
+        if self.is_deep(self.depth) {
             return None;
         }
         let mut segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;
-        let division = self.division(inside);
+        let division = self.division(inside, self.depth);
         if self.company > 0 {
             division?;
             segment = segment.always();
@@ -312,11 +312,19 @@ impl<'s, const N: usize> Walk<'s, N> {
         if self.company > 0 { None } else { Some(segment) }
     }
 
-    /// How the light of this segment is divided, if it is.
+    /// Whether equiangular samples are left out of a segment behind so many scatterings.
     #[inline(always)]
-    fn division(&self, inside: &Inside<'s, N>) -> Option<Division> {
-        let company = if self.company > 0 { Some(self.company) } else { None };
-        Division::new(self.scene, self.settings, inside, company?)
+    fn is_deep(&self, scatterings: u32) -> bool {
+        self.settings.equiangular == Equiangular::Auto && scatterings > self.settings.equiangular_depth
+    }
+
+    /// How the light of a segment behind so many scatterings is divided, if it is.
+    #[inline(always)]
+    fn division(&self, inside: &Inside<'s, N>, scatterings: u32) -> Option<Division> {
+        if self.company == 0 || self.is_deep(scatterings) {
+            return None;
+        }
+        Division::new(self.scene, self.settings, inside, self.company)
     }
 
     /// Distance of the collision on this segment, or `None` when the flight gets through.
@@ -406,7 +414,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.flight = 0.0;
         self.weight.r_e = if segment.is_some() { before * to_hero } else { Spectrum::ZERO };
         self.rival = segment.map(|segment| Rival { segment, t });
-        self.divided = self.division(&inside);
+        self.divided = self.division(&inside, self.depth - 1);
         self.at(p, Vec3::ZERO);
         self.scattered_widely = true;
         let steering = Steering::in_medium((self.scene, self.settings), self.lamp, p, &inside, self.w);

@@ -19,14 +19,17 @@ use tyndall_transport::{
 /// The stream of numbers of the paths that measure, the same for all seeds.
 const SEED: u64 = 0x7269_6d73;
 /// Paths that measure, all pixels together, at least; they are short.
-const PATHS: u32 = 16_384;
-/// And this many times fewer than there are pixels, where that is more.
-const PIXELS_PER_PATH: u32 = 8;
+const PATHS: u64 = 16_384;
+/// And this many times fewer than there are pixels, where that is more; but no more than this.
+const PIXELS_PER_PATH: u64 = 8;
+const MOST_PATHS: u64 = 1 << 20;
 /// Paths for one pixel, at least and at most.
-const FEW: u32 = 4;
-const MANY: u32 = 256;
+const FEW: u64 = 4;
+const MANY: u64 = 256;
 /// Lights beyond this number are not looked at.
 const LIGHTS: usize = 4096;
+/// Pixels may be looked at this many times, where lamps overlap.
+const OVERLAP: u64 = 4;
 /// Variance of one path of an ordinary pixel, over the square of the picture's mean: measured, 0.01 to 0.3.
 const USUAL: f32 = 0.1;
 /// Most paths for one sample.
@@ -43,17 +46,13 @@ impl PixelPass {
         if !self.may_refine() {
             return Refinement::default();
         }
-        let [width, height] = self.resolution;
-        let room = u64::from(width) * u64::from(height) / SHARE;
-        if room < 2 {
+        let pixels = u64::from(self.resolution[0]) * u64::from(self.resolution[1]);
+        let (room, budget) = (pixels / SHARE, (pixels / PIXELS_PER_PATH).clamp(PATHS, MOST_PATHS));
+        let candidates = self.candidates(room.min(budget / FEW));
+        if candidates.is_empty() {
             return Refinement::default();
         }
-        let candidates = self.candidates();
-        let budget = PATHS.max(width.saturating_mul(height) / PIXELS_PER_PATH);
-        let each = budget.checked_div(candidates.len() as u32).unwrap_or(0).min(MANY);
-        if each < FEW {
-            return Refinement::default();
-        }
+        let each = (budget / candidates.len() as u64).min(MANY) as u32;
         let usual = USUAL * pilot().scattered.powi(2);
         let varying = candidates.into_iter().filter_map(|(at, from)| {
             let variance = self.variance(at, from, each);
@@ -71,9 +70,10 @@ impl PixelPass {
         Refinement { pixels: chosen.filter(|(_, extra)| extra.paths > 1).collect() }
     }
 
-    /// Pixels, by row and column, onto which something bright is projected, and the orders of light that vary there.
-    fn candidates(&self) -> BTreeMap<[u32; 2], u32> {
-        let mut found = BTreeMap::new();
+    /// Pixels, by row and column, onto which something bright is projected, and the orders of light that vary there: up to
+    /// `most`, or none.
+    fn candidates(&self, most: u64) -> BTreeMap<[u32; 2], u32> {
+        let (mut found, mut seen) = (BTreeMap::new(), 0);
         let scene = &*self.scene;
         let deep = self.settings.max_depth >= 1 && !scene.media.is_empty();
         let [rx, ry] = self.filter.radius();
@@ -95,8 +95,12 @@ impl PixelPass {
             let (Some(columns), Some(rows)) = (range(0, rx), range(1, ry)) else { continue };
             let count =
                 u64::from(columns.end() - columns.start() + 1) * u64::from(rows.end() - rows.start() + 1);
-            if count > u64::from(self.resolution[0]) * u64::from(self.resolution[1]) / SHARE {
+            if count > most {
                 continue;
+            }
+            seen += count;
+            if seen > OVERLAP * most {
+                return BTreeMap::new();
             }
             for y in rows {
                 for x in columns.clone() {
@@ -105,7 +109,7 @@ impl PixelPass {
                 }
             }
         }
-        found
+        if found.len() as u64 > most { BTreeMap::new() } else { found }
     }
 
     /// The rectangle of the film that a box is projected into; `None` where a corner lies behind the camera.
@@ -131,7 +135,7 @@ impl PixelPass {
             let sampler = PathSampler::new(SamplerKind::OwenSobol, SEED, x, y, index, 1);
             let mut begin = self.begin(x, y, sampler, None);
             let w = self.wavelengths_of::<8>(&begin);
-            let l = self.alone(&settings, &mut begin, &w, &mut Orders::NONE);
+            let l = self.alone(&settings, &mut begin, &w, &mut Orders::none());
             let l = f64::from(self.brightness(&l, &w));
             if l.is_finite() {
                 sum += l;

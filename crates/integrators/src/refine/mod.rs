@@ -83,7 +83,7 @@ impl PixelPass {
                 PathSampler::new(self.settings.sampler, self.seed ^ STREAM, x, y, index, self.replicates);
             let mut begin = self.begin(x, y, sampler, None);
             let w = self.wavelengths_of::<N>(&begin);
-            let l = self.alone(&settings, &mut begin, &w, &mut Orders::NONE);
+            let l = self.alone(&settings, &mut begin, &w, &mut Orders::none());
             self.channels.respond(&l, &w, &mut part);
             values.iter_mut().zip(&part).for_each(|(v, p)| *v += p / extra.paths as f32);
         }

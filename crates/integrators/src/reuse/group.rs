@@ -16,7 +16,7 @@ use tyndall_base::{Vec3, hash};
 use tyndall_film::{Guide, Patch, PixelBounds, WorkUnit};
 use tyndall_geometry::Ray;
 use tyndall_scatter::phase::PhaseFunction;
-use tyndall_spectral::{Spectrum, Wavelengths, strategy::joined};
+use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{sampler::PathSampler, scene::Obstacles};
 
 /// A pixel's path.
@@ -70,8 +70,7 @@ impl PixelPass {
         let (cell, number) = (grouping.cell, grouping.members());
         let (kind, (x0, y0)) = (self.settings.sampler, (square.x0, square.y0));
         let mut common = PathSampler::of_group(kind, self.seed, x0, y0, sample, self.replicates);
-        let hero = common.next_2d();
-        let (u, time) = (joined::<N>(hero.x, hero.y), common.next_1d());
+        let (u, time) = (common.next_1d(), common.next_1d());
         let w = self.wavelengths.sample::<N>(u);
         let takes = |(x, y)| guide.samples_for(x, y, &unit.samples).contains(&sample);
         let pixels =
@@ -129,7 +128,7 @@ impl PixelPass {
         w: &'s Wavelengths<N>,
     ) -> Member<'s, N> {
         let (scene, settings) = (&*self.scene, &self.settings);
-        let Begin { ray, exposure, filter, spectrum, mut sampler, .. } =
+        let Begin { ray, exposure, filter, spectrum, mut sampler } =
             self.begin(pixel.0, pixel.1, sampler, Some(time));
         let start = (PathWeight::START, scene.camera_medium);
         let mut walk = Walk::new(scene, settings, start, ray, spectrum.y, w);

@@ -3,7 +3,7 @@
 //! *Hero* (Wilkie, Nawaz, Droske, Weidlich, Hanika, "Hero wavelength spectral sampling", Computer Graphics Forum 33(4),
 //! 2014): one number `u` gives all slots, `u_j = frac(u + j / N)`, each through the inverse of the distribution function.
 //! Every slot then has the same marginal density, and the hero (slot 0) is uniform within the set, so all slots are
-//! exchangeable. Which slot is the hero and where in their N-ths all lie are two numbers ([`joined`]). *OPOW*, one path one wavelength (Wang, Chern 2001), is the same with `N = 1`.
+//! exchangeable. *OPOW*, one path one wavelength (Wang, Chern 2001), is the same with `N = 1`.
 //!
 //! A *fixed set* of M wavelengths is a quadrature rule: each slot picks one of the M uniformly, and the mean of
 //! `value / pdf` has the quadrature sum as its expectation.
@@ -85,19 +85,6 @@ impl From<FixedSet> for WavelengthSampler {
     fn from(set: FixedSet) -> Self {
         Self::Fixed(Arc::new(set))
     }
-}
-
-/// One number for N wavelengths from two: `hero` tells in which N-th of the distribution the first lies, `within` where in
-/// their N-ths all of them lie. Points that are spread evenly over `within` fill N times as many parts of the distribution;
-/// the leading digits of one number for both would be spent on the choice of the hero.
-#[inline(always)]
-pub fn joined<const N: usize>(hero: f32, within: f32) -> f32 {
-    const GRID: f32 = (1 << 24) as f32;
-    if N == 1 {
-        return hero;
-    }
-    let part = ((hero * N as f32) as u32).min(N as u32 - 1);
-    (((part << 24) + (within * GRID) as u32) / N as u32) as f32 / GRID
 }
 
 /// `frac(u + k / N)` in \[0, 1), without rounding for `u` on the grid of 2^-24: no sum leaves \[0, 1\].

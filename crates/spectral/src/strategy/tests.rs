@@ -245,22 +245,3 @@ fn light_that_the_film_cannot_see_is_refused() {
     let without = Density::uniform_with_lines(LambdaRange::VISIBLE, &outside, 0.5).unwrap();
     assert_eq!(without.lines().count(), 0);
 }
-
-#[test]
-fn even_points_fill_eight_times_as_many_parts() {
-    // sixteen places within and eight heroes, each twice: 128 parts of the distribution, one wavelength each
-    let sampler = WavelengthSampler::uniform(LambdaRange { min: 0.0, max: 128.0 });
-    let mut seen = [0; 128];
-    for i in 0..16u32 {
-        let (hero, within) = ((i % 8) as f32 / 8.0 + 0.06, (i as f32 + 0.5) / 16.0);
-        let u = joined::<8>(hero, within);
-        assert_eq!((u * 8.0) as u32, i % 8, "the hero lies in its eighth");
-        for lambda in sampler.sample::<8>(u).lambda {
-            seen[lambda as usize] += 1;
-        }
-    }
-    assert!(seen.iter().all(|&n| n == 1), "{seen:?}");
-    // the ends stay within [0, 1)
-    let last = 1.0 - 0.5 * f32::EPSILON;
-    assert!(joined::<8>(last, last) < 1.0 && joined::<1>(last, 0.5) == last);
-}

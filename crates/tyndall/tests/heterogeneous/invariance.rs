@@ -27,7 +27,7 @@ fn analog_judges_volpath() {
     let mut family = Family::default();
     for (name, medium) in media::all("") {
         let text = lit(&medium, &media::cube());
-        let judge = Run::new(BANDS, 2048).analog().seed(7).bands(&text);
+        let judge = Run::new(BANDS, 3072).analog().seed(7).bands(&text);
         for (lanes, run) in [("8", Run::new(BANDS, 512)), ("4", Run::new(BANDS, 512).hero(4))] {
             family.equal(&format!("{name}, {lanes}"), &run.bands(&text), &judge);
         }
