@@ -6,6 +6,7 @@
 //! null collisions (see [`crate::tracking`]).
 
 mod ahead;
+mod division;
 mod scatter;
 mod site;
 mod varying;
@@ -16,11 +17,11 @@ pub(crate) use site::{MediumSite, Site, SurfaceSite};
 
 use crate::{
     direct::Rival,
-    equiangular::{self, Division, Segment},
+    equiangular::{Division, Segment},
     glow,
     medium::Inside,
     observer::{Event, PathObserver, Vertex},
-    settings::{Equiangular, Settings},
+    settings::Settings,
     steer::Steering,
     weight::{PathWeight, divide},
 };
@@ -274,57 +275,6 @@ impl<'s, const N: usize> Walk<'s, N> {
         if !inside.le.is_zero() {
             self.add(self.weight.beta * inside.emitted(t_max), self.weight.r_u, seen);
         }
-    }
-
-    /// A sample of the equiangular technique; returns the segment for the free flight's weights.
-    #[inline(always)]
-    fn equiangular(
-        &mut self,
-        inside: &Inside<'s, N>,
-        t_max: f32,
-        sampler: &mut PathSampler,
-        seen: &mut impl PathObserver<N>,
-    ) -> Option<Segment> {
-        if self.depth >= self.settings.max_depth {
-            return None;
-        }
-        if self.is_deep(self.depth) {
-            return None;
-        }
-        let mut segment = Segment::new(self.scene, self.settings, &self.ray, t_max, inside)?;
-        let division = self.division(inside, self.depth);
-        if self.company > 0 {
-            division?;
-            segment = segment.always();
-        }
-        let at = equiangular::Origin {
-            medium: self.medium,
-            inside,
-            weight: &self.weight,
-            lamp: self.lamp,
-            order: self.depth + 1,
-            time: self.ray.time,
-            anew: self.anew,
-            division,
-        };
-        let value = equiangular::sample(self.scene, self.settings, &segment, &at, self.w, sampler);
-        self.l += self.counted(at.order, value, seen);
-        if self.company > 0 { None } else { Some(segment) }
-    }
-
-    /// Whether equiangular samples are left out of a segment behind so many scatterings.
-    #[inline(always)]
-    fn is_deep(&self, scatterings: u32) -> bool {
-        self.settings.equiangular == Equiangular::Auto && scatterings > self.settings.equiangular_depth
-    }
-
-    /// How the light of a segment behind so many scatterings is divided, if it is.
-    #[inline(always)]
-    fn division(&self, inside: &Inside<'s, N>, scatterings: u32) -> Option<Division> {
-        if self.company == 0 || self.is_deep(scatterings) {
-            return None;
-        }
-        Division::new(self.scene, self.settings, inside, self.company)
     }
 
     /// Distance of the collision on this segment, or `None` when the flight gets through.

@@ -195,7 +195,7 @@ mod tests {
             screen: [-1.5, 1.2, -1.0, 0.8],
             lens_radius: 0.0,
             focal_distance: 1e6,
-            to_world: to_world.clone(),
+            to_world,
             motion: None,
         };
         let cameras = [
