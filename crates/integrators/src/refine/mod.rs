@@ -8,7 +8,7 @@
 //! L = sum_(n >= from) L_n(path)  +  1 / paths  sum_j  sum_(n < from) L_n(path_j)
 //! ```
 //!
-//! The mean is the same whichever pixels are chosen. Which they are, [`choose`] says before the first sample.
+//! The mean is the same whichever pixels are chosen. Which they are is decided before the first sample.
 
 mod choose;
 
