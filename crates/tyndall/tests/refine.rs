@@ -1,9 +1,11 @@
 //! Pixels that take the lowest orders of light from paths of their own: which they are, and what it brings.
 
+mod common;
+
+use common::develop;
 use std::path::Path;
-use tyndall::{Options, Plan, Source, integrators::pixel::PixelPass, plan};
-use tyndall_engine::Job;
-use tyndall_film::{Developed, ErrorMode, Film, Guide, Pass, Patch, WorkUnit};
+use tyndall::{Options, Plan, Source, plan};
+use tyndall_film::{Developed, ErrorMode};
 
 const SIDE: u32 = 64;
 /// Of the lamp [m]: some three pixels.
@@ -39,15 +41,6 @@ const MIST: &str = "
     Material \"interface\"
     Shape \"sphere\" \"float radius\" 3
     LightSource \"point\" \"point3 from\" [0.02 -0.02 0] \"float scale\" 50";
-
-fn render(pass: &PixelPass, job: &Job) -> Developed {
-    let unit = WorkUnit { window: job.film.bounds, samples: 0..job.spp, round: 0 };
-    let mut patch = Patch::new(&job.film, unit.clone());
-    pass.render(&unit, &Guide::default(), &mut patch);
-    let mut film = Film::new(&job.film).expect("a film of a small scene");
-    film.merge(&patch).expect("the patch belongs to the film");
-    film.develop()
-}
 
 /// Distance of a pixel's centre from that of the picture \[pixels\].
 fn from_centre((x, y): (u32, u32)) -> f32 {
@@ -88,13 +81,10 @@ fn a_point_of_light_in_a_mist_is_refined_where_it_shows() {
 fn refined_pixels_have_the_same_means_and_less_variance() {
     for more in [lamp(RADIUS, 300.0), MIST.into()] {
         for reuse in ["", " \"bool pathreuse\" false"] {
-            let plans =
+            let mut plans =
                 [reuse.to_owned(), format!("\"bool refine\" false{reuse}")].map(|i| picture(&i, &more));
-            let [fine, coarse] = [0, 1].map(|i| {
-                let mut pass = plans[i].pass.clone();
-                pass.seed = i as u64;
-                render(&pass, &plans[i].job)
-            });
+            plans[1].pass.seed = 1;
+            let [fine, coarse] = [0, 1].map(|i| develop(&plans[i]));
             for channel in 0..3 {
                 let [a, b] = [&fine, &coarse].map(|film| film.mean_over(channel, film.bounds));
                 let error = (a.1.variance + b.1.variance).sqrt();
