@@ -186,9 +186,14 @@ impl PixelPass {
         // they bring; in a mist steering keeps rare beams from being met by chance
         let surfaces = self.scene.media.is_empty();
         let spared = self.settings.guiding == Guiding::Auto && surfaces && self.shares_paths();
-        let steers = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero) && !spared;
+        let steers = self.is_led_by_hero() && !spared;
         let learn = || learn(&self.scene, &self.settings, &self.wavelengths, &self.channels, resolution);
         if steers { learn() } else { None }
+    }
+
+    /// Whether it is `volpath` with a hero, which alone shares paths, learns and refines pixels.
+    pub(crate) fn is_led_by_hero(&self) -> bool {
+        self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero)
     }
 
     /// The pass with what it can learn: how paths are shared, and where light comes from.

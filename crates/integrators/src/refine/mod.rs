@@ -12,11 +12,7 @@
 
 mod choose;
 
-use crate::{
-    pilot::Orders,
-    pixel::{Method, PixelPass, Sharing},
-    settings::Settings,
-};
+use crate::{pilot::Orders, pixel::PixelPass, settings::Settings};
 use tyndall_film::Weights;
 use tyndall_transport::sampler::PathSampler;
 
@@ -59,8 +55,10 @@ impl Refinement {
 impl PixelPass {
     /// Whether pixels may take light from paths of their own.
     pub(crate) fn may_refine(&self) -> bool {
-        let plain = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero);
-        self.settings.refine && plain && self.layers.is_empty() && self.filter.weights() == Weights::Unit
+        self.settings.refine
+            && self.is_led_by_hero()
+            && self.layers.is_empty()
+            && self.filter.weights() == Weights::Unit
     }
 
     /// Adds to `values` what sample `sample` of pixel (`x`, `y`) takes from paths of its own.

@@ -26,7 +26,7 @@ mod end;
 mod group;
 
 use crate::{
-    pixel::{Lanes, Method, PixelPass, Sharing},
+    pixel::{Lanes, PixelPass},
     settings::Settings,
 };
 use tyndall_base::sobol::Sharers;
@@ -97,8 +97,11 @@ impl PixelPass {
     fn may_share_paths(&self) -> bool {
         // the single wavelength of a path would be that of the whole square
         let several = self.lanes != Lanes::One;
-        let plain = self.method == Method::Volpath && matches!(self.sharing, Sharing::Hero);
-        several && plain && self.layers.is_empty() && allowed(&self.settings) && possible(&self.scene)
+        several
+            && self.is_led_by_hero()
+            && self.layers.is_empty()
+            && allowed(&self.settings)
+            && possible(&self.scene)
     }
 
     /// Side of the squares of pixels that have errors in common, for [`tyndall_film::FilmSpec::square`]; 1 for none.

@@ -29,8 +29,8 @@ impl LightBounds {
     /// Of a light of finite extent; `None` for those at infinity.
     pub fn of(light: &Light, accel: &Accel, power: f64) -> Option<Self> {
         let power = power as f32;
-        let everywhere = |p: Vec3| Self {
-            bounds: Bounds3::new(p, p),
+        let everywhere = Self {
+            bounds: light.bounds(accel)?,
             axis: Vec3 { x: 0.0, y: 0.0, z: 1.0 },
             power,
             cos_o: -1.0,
@@ -46,26 +46,13 @@ impl LightBounds {
                     Shape::Bilinear(m) => m.is_flat(l.prim),
                     _ => false,
                 };
-                let bounds = shape.prim_bounds(l.prim);
                 let n = l.sample_position(accel, [0.5, 0.5]).target.n;
                 let cos_o = if flat { 1.0 } else { -1.0 };
-                Some(Self {
-                    bounds,
-                    axis: n,
-                    power,
-                    cos_o,
-                    cos_e: 0.0,
-                    two_sided: l.two_sided,
-                    hollow: false,
-                })
+                Some(Self { axis: n, cos_o, two_sided: l.two_sided, ..everywhere })
             }
-            Light::Point(l) => Some(everywhere(l.p)),
-            Light::Spot(l) => Some(Self { axis: l.axis, cos_o: 1.0, cos_e: l.cos_end, ..everywhere(l.p) }),
-            Light::Goniometric(l) => Some(everywhere(l.p)),
-            Light::Projection(l) => Some(everywhere(l.p())),
-            Light::Volume(l) => {
-                Some(Self { bounds: l.bounds(), hollow: l.is_hollow(), ..everywhere(Vec3::ZERO) })
-            }
+            Light::Point(_) | Light::Goniometric(_) | Light::Projection(_) => Some(everywhere),
+            Light::Spot(l) => Some(Self { axis: l.axis, cos_o: 1.0, cos_e: l.cos_end, ..everywhere }),
+            Light::Volume(l) => Some(Self { hollow: l.is_hollow(), ..everywhere }),
             Light::Distant(_) | Light::Infinite(_) | Light::Image(_) | Light::Portal(_) => None,
         }
     }
