@@ -6,7 +6,7 @@ use crate::{
     medium::Inside,
     settings::Settings,
     shadow::{End, Place, Shadow, shadow},
-    weight::{PathWeight, divide},
+    weight::{Heuristic, PathWeight, combine},
 };
 use tyndall_base::Vec3;
 use tyndall_geometry::SurfacePoint;
@@ -161,13 +161,15 @@ where
     // densities of the techniques that make this path, lane by lane
     let by_light = s.r_l * (selected.pmf * sample.pdf);
     let by_chance = if sample.delta { Spectrum::ZERO } else { pdf * s.r_u };
-    let mut r = weight.r_u * (by_light + by_chance);
-    if let (Some(rival), Some(target)) = (&vertex.rival, &sample.target) {
-        r += weight.r_e * s.r_l * rival.density(scene, selected.id, target);
-    }
+    let by_rival = match (&vertex.rival, &sample.target) {
+        (Some(rival), Some(target)) => weight.r_e * s.r_l * rival.density(scene, selected.id, target),
+        _ => Spectrum::ZERO,
+    };
     let mut l = sample.l;
     if let (Some(division), Some(target)) = (&vertex.division, &sample.target) {
         l *= division.of_flights(light, (target.p - vertex.p).length());
     }
-    divide(weight.beta * f * s.t * l, r)
+    let heuristic = Heuristic::at(settings, vertex.known.inside);
+    let others = [weight.r_u * by_chance, by_rival];
+    combine(heuristic, weight.beta * f * s.t * l, weight.r_u * by_light, others)
 }

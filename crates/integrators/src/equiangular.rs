@@ -12,7 +12,7 @@ use crate::{
     settings::{Equiangular, Settings},
     shadow::{End, Place, shadow},
     steer::{Steering, mixed},
-    weight::{PathWeight, divide},
+    weight::{Heuristic, PathWeight, combine, divide},
 };
 use tyndall_base::{Vec3, warp};
 use tyndall_geometry::Ray;
@@ -345,12 +345,11 @@ fn connect<const N: usize>(
     let steering = Steering::in_medium((scene, settings), at.lamp, x, inside, w);
     let by_chance =
         if light.is_hidden() { Spectrum::ZERO } else { mixed(steering.as_ref(), phase, wi) * s.r_u };
-    let r = if at.anew {
-        weight.r_u * s.r_l * technique + (s.r_l * by_light + by_chance) * (weight.r_u * flight).mean()
-    } else {
-        weight.r_u * (s.r_l * technique + flight * (s.r_l * by_light + by_chance))
-    };
-    Some(divide(weight.beta * f * s.t * l, r))
+    let flown = if at.anew { Spectrum::splat((weight.r_u * flight).mean()) } else { weight.r_u * flight };
+    let own = weight.r_u * s.r_l * technique;
+    let heuristic = Heuristic::at(settings, Some(inside));
+    let others = [flown * s.r_l * by_light, flown * by_chance];
+    Some(combine(heuristic, weight.beta * f * s.t * l, own, others))
 }
 
 #[cfg(test)]

@@ -40,6 +40,9 @@ pub struct Settings {
     /// Where the lights are few, sample each of them at a path's first surface, not one that is drawn, and an area that is alone
     /// twice.
     pub each_light: bool,
+    /// Combine light sampling, chance hits and equiangular samples by the power heuristic where transmittance has a closed form;
+    /// off: by the balance heuristic.
+    pub power: bool,
     /// `exp(-sigma_t d)` on shadow rays; off: a free flight along the shadow ray that passes or does not.
     pub exact_transmittance: bool,
     /// Shadow rays through media that vary take what is certain of the extinction in closed form (residual ratio
@@ -75,6 +78,7 @@ impl Default for Settings {
             regularize: false,
             light_sampling: true,
             each_light: true,
+            power: true,
             exact_transmittance: true,
             residual: true,
             survival: true,

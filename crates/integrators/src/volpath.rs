@@ -13,7 +13,7 @@ mod varying;
 
 use ahead::Ahead;
 pub(crate) use scatter::Audience;
-pub(crate) use site::{MediumSite, Site, SurfaceSite};
+pub(crate) use site::{MediumSite, Scatters, Site, SurfaceSite};
 
 use crate::{
     direct::Rival,
@@ -23,7 +23,7 @@ use crate::{
     observer::{Event, PathObserver, Vertex},
     settings::Settings,
     steer::Steering,
-    weight::{PathWeight, divide},
+    weight::{Heuristic, PathWeight, combine, divide},
 };
 use tyndall_base::{Vec3, warp};
 use tyndall_geometry::{Hit, Ray};
@@ -84,6 +84,8 @@ pub(crate) struct Walk<'s, const N: usize> {
     medium: MediumId,
     inside: Option<Inside<'s, N>>,
     pub weight: PathWeight<N>,
+    /// How light that the path meets by chance is combined with what the last scattering sampled.
+    heuristic: Heuristic,
     /// The equiangular technique of the last scattering.
     pub rival: Option<Rival>,
     /// The point whose glow attracts the path.
@@ -151,6 +153,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             medium,
             inside: Inside::of(scene, medium, w),
             weight,
+            heuristic: Heuristic::Balance,
             rival: None,
             lamp: None,
             flight: warp::sample_exponential(first, 1.0),
@@ -183,7 +186,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             if let Some(at) = site {
                 let goes_on = match at {
                     Site::Medium(at) => self.scatter_medium(at, &mut (), sampler, seen),
-                    Site::Surface(at) => self.scatter_surface(at, sampler, seen),
+                    Site::Surface(at) => self.scatter_surface(at, &mut (), sampler, seen),
                 };
                 if !goes_on {
                     break;
@@ -260,6 +263,13 @@ impl<'s, const N: usize> Walk<'s, N> {
     fn add(&mut self, value: Spectrum<N>, r: Spectrum<N>, seen: &mut impl PathObserver<N>) {
         let value = self.counted(self.depth, divide(value, r), seen);
         self.l += value;
+    }
+
+    /// Adds light that the path met by chance, which the techniques `others` could have sampled.
+    #[inline(always)]
+    fn met(&mut self, le: Spectrum<N>, others: [Spectrum<N>; 2], seen: &mut impl PathObserver<N>) {
+        let value = combine(self.heuristic, self.weight.beta * le, self.weight.r_u, others);
+        self.l += self.counted(self.depth, value, seen);
     }
 
     /// What of `value`, light of `order` scatterings, belongs to the pixel.
@@ -380,8 +390,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             let light = self.scene.lights.get(id);
             let le = light.le_infinite(self.previous, self.ray.d, self.w);
             let pdf = self.pmf(id) * light.pdf_infinite(self.previous, self.ray.d);
-            let r = self.weight.r_u + self.weight.r_l * self.by_light(pdf);
-            self.add(self.weight.beta * le, r, seen);
+            self.met(le, [self.weight.r_l * self.by_light(pdf), Spectrum::ZERO], seen);
         }
     }
 
@@ -389,6 +398,7 @@ impl<'s, const N: usize> Walk<'s, N> {
     #[inline(always)]
     fn at(&mut self, p: Vec3, n: Vec3) {
         (self.previous, self.facing, self.each) = (p, n, 0);
+        self.heuristic = Heuristic::at(self.settings, self.inside.as_ref());
     }
 
     /// Samples of the light `id` that the last scattering took, on average.
@@ -470,16 +480,16 @@ impl<'s, const N: usize> Walk<'s, N> {
         if le.is_zero() {
             return;
         }
-        let mut r = self.weight.r_u;
+        let mut others = [Spectrum::ZERO; 2];
         if self.settings.light_sampling && !(self.weight.r_l.is_zero() && self.weight.r_e.is_zero()) {
             let target = light.target(&self.scene.accel, hit, s);
             let pdf = self.pmf(id) * light.pdf_li(&self.scene.accel, self.previous, self.ray.d, &target);
-            r += self.weight.r_l * pdf;
+            others[0] = self.weight.r_l * pdf;
             if let Some(rival) = &self.rival {
-                r += self.weight.r_e * rival.density(self.scene, id, &target);
+                others[1] = self.weight.r_e * rival.density(self.scene, id, &target);
             }
         }
-        self.add(self.weight.beta * le, r, seen);
+        self.met(le, others, seen);
     }
 
     /// Goes on through a boundary that does not bend light.

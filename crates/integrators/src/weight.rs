@@ -12,6 +12,7 @@
 //! whose last vertex was chosen on a light; `r_e` to the path whose last two vertices were chosen by equiangular
 //! sampling. All are zero-safe: a lane that cannot be drawn has `r = 0`, and a path that no lane can draw is dead.
 
+use crate::{medium::Inside, settings::Settings};
 use tyndall_spectral::Spectrum;
 
 /// Exponents beyond this are cut, so that no product leaves the range of f32.
@@ -128,6 +129,46 @@ pub fn divide<const N: usize>(value: Spectrum<N>, r: Spectrum<N>) -> Spectrum<N>
     if m > 0.0 { value * (1.0 / m) } else { Spectrum::ZERO }
 }
 
+/// How techniques that reach the same light are combined; within each, wavelengths are by the balance heuristic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Heuristic {
+    /// By densities (Veach 1997, eq. 9.8): `value / sum of mean(r)`.
+    Balance,
+    /// By their squares (eq. 9.13): `value mean(own) / sum of mean(r)^2`. Better where a technique of small density would add
+    /// its noise to a good one; not where densities do not tell of the noise, as where transmittance is estimated.
+    Power,
+}
+
+impl Heuristic {
+    /// At a vertex that lies in, or was reached through, `inside`. All techniques at a vertex agree on it.
+    #[inline(always)]
+    pub fn at<const N: usize>(settings: &Settings, inside: Option<&Inside<'_, N>>) -> Self {
+        let tracked = inside.is_some_and(|inside| inside.varying.is_some());
+        if settings.power && !tracked { Self::Power } else { Self::Balance }
+    }
+}
+
+/// `value` as the technique of the densities `own` brings it, where `others` could have; zero where no lane can be drawn.
+#[inline(always)]
+pub fn combine<const N: usize, const K: usize>(
+    heuristic: Heuristic,
+    value: Spectrum<N>,
+    own: Spectrum<N>,
+    others: [Spectrum<N>; K],
+) -> Spectrum<N> {
+    let own = own.mean();
+    if own <= 0.0 || own.is_nan() {
+        return Spectrum::ZERO;
+    }
+    let mut sum = 1.0;
+    for r in others {
+        // squares of ratios stay in range where those of densities do not
+        let ratio = r.mean() / own;
+        sum += if heuristic == Heuristic::Power { ratio * ratio } else { ratio };
+    }
+    value * (1.0 / (own * sum))
+}
+
 /// `exp(x)` per lane with the exponent cut to the range that products of f32 bear.
 #[inline(always)]
 pub fn exp<const N: usize>(x: Spectrum<N>) -> Spectrum<N> {
@@ -149,6 +190,24 @@ mod tests {
         assert!(w.throughput().is_finite());
         let none = divide(Spectrum::<4>::ONE, Spectrum::ZERO);
         assert!(none.is_zero());
+    }
+
+    /// What a technique brings, times how often it does, adds up to the value, whatever the heuristic.
+    #[test]
+    fn parts_of_all_techniques_add_up() {
+        let techniques = [Spectrum([3.0, 1.0]), Spectrum([0.5, 0.1]), Spectrum([0.0, 7.0])];
+        let value = Spectrum([2.0, 5.0]);
+        for heuristic in [Heuristic::Balance, Heuristic::Power] {
+            let mut sum = Spectrum::ZERO;
+            for own in 0..3 {
+                let [a, b] = [1, 2].map(|k| techniques[(own + k) % 3]);
+                sum += combine(heuristic, value, techniques[own], [a, b]) * techniques[own].mean();
+            }
+            assert!((sum[0] / 2.0 - 1.0).abs() < 1e-6 && (sum[1] / 5.0 - 1.0).abs() < 1e-6, "{sum:?}");
+        }
+        let huge = combine(Heuristic::Power, value, Spectrum([1e30; 2]), [Spectrum([1e38; 2])]);
+        assert!(huge.is_finite() && huge[0] > 0.0, "{huge:?}");
+        assert!(combine(Heuristic::Power, value, Spectrum::ZERO, [value]).is_zero());
     }
 
     #[test]

@@ -1,10 +1,7 @@
 //! All who share what scatters at one point: how much of it each gets.
 
 use super::{MOST, end::Link, nobody};
-use crate::{
-    steer::mixed,
-    volpath::{Audience, MediumSite},
-};
+use crate::volpath::{Audience, Scatters, Site};
 use tyndall_base::Vec3;
 use tyndall_spectral::{Spectrum, Wavelengths};
 
@@ -56,12 +53,12 @@ impl<const N: usize> Company<N> {
         }
     }
 
-    /// The same where `at` scatters by a phase function that is not the same for all: `l` came by the direction that the
-    /// path took, sampled light by its own.
+    /// The same where `at` does not scatter alike for all: `l` came by the direction that the path took, sampled light by its
+    /// own.
     #[inline(always)]
     pub fn deal_from(
         &self,
-        at: &MediumSite<'_, N>,
+        at: &Site<'_, N>,
         l: Spectrum<N>,
         w: &Wavelengths<N>,
         mut give: impl FnMut(usize, Spectrum<N>),
@@ -70,25 +67,40 @@ impl<const N: usize> Company<N> {
             if l.is_zero() {
                 continue;
             }
-            let (all, _) = self.sums(at, wi, w);
-            let l = l.safe_div(all);
-            for i in 0..self.most {
-                if let Some(link) = &self.links[i] {
-                    give(i, l * link.through * at.inside.phase.eval(link.wo, wi, w));
-                }
+            match at {
+                Site::Medium(at) => self.deal_towards(at, wi, l, w, &mut give),
+                Site::Surface(at) => self.deal_towards(at, wi, l, w, &mut give),
+            }
+        }
+    }
+
+    /// Parts of `l`, which came from `wi`.
+    #[inline(always)]
+    fn deal_towards(
+        &self,
+        at: &impl Scatters<N>,
+        wi: Vec3,
+        l: Spectrum<N>,
+        w: &Wavelengths<N>,
+        give: &mut impl FnMut(usize, Spectrum<N>),
+    ) {
+        let l = l.safe_div(self.sums(at, wi, w).0);
+        for i in 0..self.most {
+            if let Some(link) = &self.links[i] {
+                give(i, l * link.through * at.eval_from(link.wo, wi, w).0);
             }
         }
     }
 
     /// Sums over all links of what goes on to `wi`, and of its density.
     #[inline(always)]
-    fn sums(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+    fn sums(&self, at: &impl Scatters<N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
         let (mut through, mut density) = (Spectrum::ZERO, Spectrum::ZERO);
         for i in 0..self.most {
             if let Some(link) = &self.links[i] {
-                let phase = at.inside.phase.eval(link.wo, wi, w);
-                through += link.through * phase;
-                density += link.density * mixed(at.steering.as_ref(), phase, wi);
+                let (f, pdf) = at.eval_from(link.wo, wi, w);
+                through += link.through * f;
+                density += link.density * pdf;
             }
         }
         (through, density)
@@ -97,21 +109,20 @@ impl<const N: usize> Company<N> {
 
 impl<const N: usize> Audience<N> for Company<N> {
     #[inline(always)]
-    fn eval(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+    fn eval(
+        &self,
+        at: &impl Scatters<N>,
+        wi: Vec3,
+        _: impl FnOnce() -> (Spectrum<N>, Spectrum<N>),
+        w: &Wavelengths<N>,
+    ) -> (Spectrum<N>, Spectrum<N>) {
         let (through, density) = self.sums(at, wi, w);
         (through.safe_div(self.through), density.safe_div(self.density))
     }
 
     #[inline(always)]
-    fn drawn(
-        &mut self,
-        at: &MediumSite<'_, N>,
-        wi: Vec3,
-        _: Spectrum<N>,
-        w: &Wavelengths<N>,
-    ) -> (Spectrum<N>, Spectrum<N>) {
+    fn drawn(&mut self, wi: Vec3) {
         self.leaves = wi;
-        self.eval(at, wi, w)
     }
 
     #[inline(always)]

@@ -10,12 +10,30 @@ use crate::{
 };
 use tyndall_base::Vec3;
 use tyndall_geometry::{Notes, Ray, SurfacePoint, surface::segment};
-use tyndall_scatter::bsdf::{Bsdf, BsdfFlags};
+use tyndall_scatter::{
+    bsdf::{Bsdf, TrowbridgeReitz},
+    phase::PhaseFunction,
+};
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{MediumId, Scene, light::Target, sampler::PathSampler};
 
 /// Media whose phase functions are narrower send too little to the points of others.
 const LEAST_OPEN: f32 = 0.1;
+/// So do surfaces that are smoother.
+const LEAST_ROUGH: f32 = 0.02;
+
+/// Roughness of a surface whose density of directions has a closed form that is quickly worked out, 1 where it is diffuse;
+/// 0 for others.
+#[inline(always)]
+fn roughness<const N: usize>(bsdf: &Bsdf<'_, N>) -> f32 {
+    let least = |d: &TrowbridgeReitz| d.alpha_x.min(d.alpha_y);
+    match bsdf {
+        Bsdf::Diffuse(_) | Bsdf::DiffuseTransmission(_) => 1.0,
+        Bsdf::Conductor(b) => least(&b.distribution),
+        Bsdf::Dielectric(b) => least(&b.distribution),
+        _ => 0.0,
+    }
+}
 
 impl<const N: usize> Site<'_, N> {
     /// Whether paths of others may begin here: what scatters leaves all directions open.
@@ -23,7 +41,16 @@ impl<const N: usize> Site<'_, N> {
     pub fn may_begin(&self, w: &Wavelengths<N>) -> bool {
         match self {
             Self::Medium(at) => openness(at.inside.phase, w) >= LEAST_OPEN,
-            Self::Surface(at) => at.bsdf.flags() == BsdfFlags::DIFFUSE | BsdfFlags::REFLECTION,
+            Self::Surface(at) => roughness(&at.bsdf) >= LEAST_ROUGH,
+        }
+    }
+
+    /// Whether paths from different directions get different parts of what goes on from here.
+    #[inline(always)]
+    pub fn tells_apart(&self) -> bool {
+        match self {
+            Self::Medium(at) => !matches!(at.inside.phase, PhaseFunction::Isotropic),
+            Self::Surface(at) => !matches!(at.bsdf, Bsdf::Diffuse(_)),
         }
     }
 
@@ -98,8 +125,8 @@ impl<'s, const N: usize> Origin<'s, N> {
     }
 }
 
-/// A second scattering that others may go on from: a point of a medium, or a surface that sends the same light in all
-/// directions on its side.
+/// A second scattering that others may go on from: a point of a medium, or of a surface on the side that the path came
+/// from.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shared<'s, const N: usize> {
     target: Target,
@@ -143,7 +170,9 @@ impl<'s, const N: usize> Shared<'s, N> {
                 Self { target, medium, end: at.p, time, facing: None, density, scattering, own: 0.0 }
             }
             Site::Surface(at) => {
-                let Bsdf::Diffuse(_) = at.bsdf else { return None };
+                if roughness(&at.bsdf) < LEAST_ROUGH {
+                    return None;
+                }
                 let SurfacePoint { p, rounding, ng, .. } = at.isect.surface;
                 let facing = Some([ng, at.frame.z].map(|n| if n.dot(walk.ray.d) < 0.0 { n } else { -n }));
                 let target = Target { p, rounding, n: ng, pdf_area: 1.0 };

@@ -15,7 +15,6 @@ use crate::{
 use tyndall_base::{Vec3, hash};
 use tyndall_film::{Guide, Patch, PixelBounds, WorkUnit};
 use tyndall_geometry::Ray;
-use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{sampler::PathSampler, scene::Obstacles};
 
@@ -154,14 +153,12 @@ impl PixelPass {
         let (mut sends, mut goes_on) = (None, site.is_some());
         if let Some((company, own)) = &mut company {
             all[k] += walk.restart(company.through * *own, company.density * *own);
-            // a phase function sends each member another part of what scatters
-            sends = match site {
-                Some(Site::Medium(at)) if !matches!(at.inside.phase, PhaseFunction::Isotropic) => Some(*at),
-                _ => None,
-            };
-            if let Some(at) = &sends {
-                *site = None;
-                goes_on = walk.scatter_medium(at, company, sampler, &mut ());
+            // each member gets another part of what scatters
+            sends = site.take_if(|at| at.tells_apart());
+            match &sends {
+                Some(Site::Medium(at)) => goes_on = walk.scatter_medium(at, company, sampler, &mut ()),
+                Some(Site::Surface(at)) => goes_on = walk.scatter_surface(at, company, sampler, &mut ()),
+                None => {}
             }
         }
         if goes_on {

@@ -1,6 +1,6 @@
 //! Scattering: light sampling, the next direction, roulette.
 
-use super::{MediumSite, SurfaceSite, Walk};
+use super::{MediumSite, SurfaceSite, Walk, site::Scatters};
 use crate::{
     direct::{self, Scatterer},
     observer::PathObserver,
@@ -13,19 +13,19 @@ use tyndall_scatter::bsdf::BsdfFlags;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{MediumId, sampler::PathSampler};
 
-/// Whom a scattering in a medium sends light to: the path alone, `()`, or several that come from different directions.
+/// Whom a scattering sends light to: the path alone, `()`, or several that come from different directions.
 pub(crate) trait Audience<const N: usize> {
-    /// `(phase function, density)` \[1/sr\] of going on towards `wi`, per lane.
-    fn eval(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>);
-
-    /// The same where `wi` was drawn for the path alone, with its phase function known.
-    fn drawn(
-        &mut self,
-        at: &MediumSite<'_, N>,
+    /// `(f |cos|, density)` \[1/sr\] of going on towards `wi`, per lane; `alone` gives those of the path alone.
+    fn eval(
+        &self,
+        at: &impl Scatters<N>,
         wi: Vec3,
-        phase: Spectrum<N>,
+        alone: impl FnOnce() -> (Spectrum<N>, Spectrum<N>),
         w: &Wavelengths<N>,
     ) -> (Spectrum<N>, Spectrum<N>);
+
+    /// The path goes on towards `wi`.
+    fn drawn(&mut self, wi: Vec3);
 
     /// Light sampling brought `value` from `wi`; returns what of it belongs to the path.
     fn lit(&mut self, wi: Vec3, value: Spectrum<N>) -> Spectrum<N>;
@@ -33,20 +33,18 @@ pub(crate) trait Audience<const N: usize> {
 
 impl<const N: usize> Audience<N> for () {
     #[inline(always)]
-    fn eval(&self, at: &MediumSite<'_, N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
-        at.eval(wi, w)
+    fn eval(
+        &self,
+        _: &impl Scatters<N>,
+        _: Vec3,
+        alone: impl FnOnce() -> (Spectrum<N>, Spectrum<N>),
+        _: &Wavelengths<N>,
+    ) -> (Spectrum<N>, Spectrum<N>) {
+        alone()
     }
 
     #[inline(always)]
-    fn drawn(
-        &mut self,
-        at: &MediumSite<'_, N>,
-        wi: Vec3,
-        phase: Spectrum<N>,
-        _: &Wavelengths<N>,
-    ) -> (Spectrum<N>, Spectrum<N>) {
-        (phase, mixed(at.steering.as_ref(), phase, wi))
-    }
+    fn drawn(&mut self, _: Vec3) {}
 
     #[inline(always)]
     fn lit(&mut self, _: Vec3, value: Spectrum<N>) -> Spectrum<N> {
@@ -72,7 +70,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                 spawn: |_| (at.p, at.medium),
                 eval: |wi| {
                     towards.set(wi);
-                    audience.eval(at, wi, self.w)
+                    audience.eval(at, wi, || at.eval(wi, self.w), self.w)
                 },
                 rival: self.rival,
                 division: self.divided,
@@ -90,7 +88,9 @@ impl<'s, const N: usize> Walk<'s, N> {
             let s = at.inside.phase.sample(at.wo, u, self.w);
             (s.wi, s.p)
         };
-        let (phase, pdf) = audience.drawn(at, wi, phase, self.w);
+        audience.drawn(wi);
+        let alone = || (phase, mixed(at.steering.as_ref(), phase, wi));
+        let (phase, pdf) = audience.eval(at, wi, alone, self.w);
         if !self.weight.scatter(phase, pdf, false) {
             return false;
         }
@@ -100,18 +100,23 @@ impl<'s, const N: usize> Walk<'s, N> {
 
     /// Scatters at a surface; false when the path ends.
     #[inline(always)]
-    pub(super) fn scatter_surface(
+    pub(crate) fn scatter_surface(
         &mut self,
         at: &SurfaceSite<'s, N>,
+        audience: &mut impl Audience<N>,
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
     ) -> bool {
         if self.settings.light_sampling && !at.bsdf.is_delta() {
+            let towards = Cell::new(Vec3::ZERO);
             let vertex = Scatterer {
                 p: at.isect.surface.p,
                 n: at.isect.surface.ng,
                 spawn: |wi| at.spawn(wi),
-                eval: |wi| at.eval(wi),
+                eval: |wi| {
+                    towards.set(wi);
+                    audience.eval(at, wi, || at.eval(wi), self.w)
+                },
                 rival: None,
                 division: None,
                 surface: Some(&at.isect.surface),
@@ -128,7 +133,7 @@ impl<'s, const N: usize> Walk<'s, N> {
                     self.counted(self.depth, value, seen)
                 }
             };
-            self.l += value;
+            self.l += audience.lit(towards.get(), value);
         }
         let uc = sampler.next_1d();
         let u = sampler.next_2d();
@@ -137,7 +142,8 @@ impl<'s, const N: usize> Walk<'s, N> {
         if let Some(towards) = at.steering.and_then(|s| s.sample(&mut u)) {
             wi = towards;
             self.scattered_widely = true;
-            let (f, pdf) = at.eval(wi);
+            audience.drawn(wi);
+            let (f, pdf) = audience.eval(at, wi, || at.eval(wi), self.w);
             if !self.weight.scatter(f, pdf, false) {
                 return false;
             }
@@ -146,8 +152,10 @@ impl<'s, const N: usize> Walk<'s, N> {
             wi = at.frame.from_local(s.wi);
             let delta = s.flags.contains(BsdfFlags::DELTA);
             self.scattered_widely |= !delta;
-            let pdf = mixed(at.steering.as_ref(), s.pdf, wi);
-            if !self.weight.scatter(s.f * s.wi.z.abs(), pdf, delta) {
+            audience.drawn(wi);
+            let alone = || (s.f * s.wi.z.abs(), mixed(at.steering.as_ref(), s.pdf, wi));
+            let (f, pdf) = audience.eval(at, wi, alone, self.w);
+            if !self.weight.scatter(f, pdf, delta) {
                 return false;
             }
             self.eta_scale *= s.eta * s.eta;

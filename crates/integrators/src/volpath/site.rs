@@ -10,6 +10,13 @@ use tyndall_scatter::bsdf::Bsdf;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{Interaction, MediumId};
 
+/// What scatters at a point, for light that leaves along any direction.
+pub(crate) trait Scatters<const N: usize> {
+    /// `(f |cos|, density)` \[1/sr\] per lane of a path that came from `wo` and goes on towards `wi`; in a medium the phase
+    /// function stands for `f |cos|`.
+    fn eval_from(&self, wo: Vec3, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>);
+}
+
 /// A point of a homogeneous medium.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MediumSite<'s, const N: usize> {
@@ -29,7 +36,14 @@ impl<const N: usize> MediumSite<'_, N> {
     /// `(phase function, density)` \[1/sr\] of going on towards `wi`, per lane.
     #[inline(always)]
     pub fn eval(&self, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
-        let phase = self.inside.phase.eval(self.wo, wi, w);
+        self.eval_from(self.wo, wi, w)
+    }
+}
+
+impl<const N: usize> Scatters<N> for MediumSite<'_, N> {
+    #[inline(always)]
+    fn eval_from(&self, wo: Vec3, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+        let phase = self.inside.phase.eval(wo, wi, w);
         (phase, mixed(self.steering.as_ref(), phase, wi))
     }
 }
@@ -57,8 +71,14 @@ impl<const N: usize> SurfaceSite<'_, N> {
     /// `(f |cos|, density)` \[1/sr\] of going on towards `wi`, per lane.
     #[inline(always)]
     pub fn eval(&self, wi: Vec3) -> (Spectrum<N>, Spectrum<N>) {
+        self.eval_local(self.wo, wi)
+    }
+
+    /// The same for a path that came from `wo` in the shading frame.
+    #[inline(always)]
+    fn eval_local(&self, wo: Vec3, wi: Vec3) -> (Spectrum<N>, Spectrum<N>) {
         let local = self.frame.to_local(wi);
-        let (f, pdf) = self.bsdf.eval_pdf(self.wo, local);
+        let (f, pdf) = self.bsdf.eval_pdf(wo, local);
         (f * local.z.abs(), mixed(self.steering.as_ref(), pdf, wi))
     }
 
@@ -66,6 +86,13 @@ impl<const N: usize> SurfaceSite<'_, N> {
     #[inline(always)]
     pub fn spawn(&self, wi: Vec3) -> (Vec3, MediumId) {
         (self.isect.surface.origin(wi), self.isect.medium_towards(wi, self.medium))
+    }
+}
+
+impl<const N: usize> Scatters<N> for SurfaceSite<'_, N> {
+    #[inline(always)]
+    fn eval_from(&self, wo: Vec3, wi: Vec3, _: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
+        self.eval_local(self.frame.to_local(wo), wi)
     }
 }
 

@@ -115,6 +115,7 @@ const KNOWN: &[&str] = &[
     "glow",
     "guiding",
     "eachlight",
+    "power",
     "pathreuse",
     "refine",
     "roulettethreshold",
@@ -215,6 +216,7 @@ fn settings(p: &ParamSet, method: Method) -> Result<Settings, Error> {
         reuse: p.bool("pathreuse", default.reuse)?,
         refine: p.bool("refine", default.refine)?,
         each_light: p.bool("eachlight", default.each_light)?,
+        power: p.bool("power", default.power)?,
         roulette_depth: if p.bool("russianroulette", true)? { roulette } else { u32::MAX },
         roulette_threshold: threshold,
         ..default

@@ -45,6 +45,7 @@ pub const TECHNIQUES: &[Variant] = &[
     settings("equiangular on first segments only", "small-lamp", |s| s.equiangular_depth = 0),
     settings("path reuse off", "empty-box", |s| s.reuse = false),
     settings("one light at a time", "room", |s| s.each_light = false),
+    settings("balance heuristic", "room", |s| s.power = false),
     settings("no pixels refined", "beam", |s| s.refine = false),
     settings("guiding off", "beam", |s| s.guiding = Guiding::Off),
     settings("guiding and glow off", "fog-box", |s| (s.guiding, s.glow) = (Guiding::Off, false)),

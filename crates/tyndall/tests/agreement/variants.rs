@@ -64,6 +64,7 @@ const EVERYWHERE: &[Variant] = &[
     with_settings("path reuse off", |s| s.reuse = false, 1),
     with_settings("path reuse off, equiangular always", reuse_off_equiangular, 1),
     with_settings("one light at a time", |s| s.each_light = false, 1),
+    with_settings("balance heuristic", |s| s.power = false, 1),
     with_settings("no pixels refined", |s| s.refine = false, 1),
     with_settings("no pixels refined, path reuse off", |s| (s.refine, s.reuse) = (false, false), 1),
     with_settings("guiding always", |s| s.guiding = Guiding::Always, 1),
