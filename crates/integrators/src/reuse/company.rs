@@ -1,15 +1,14 @@
 //! All who share what scatters at one point: how much of it each gets.
 
-use super::{MOST, end::Link, nobody};
+use super::end::Link;
 use crate::volpath::{Audience, Scatters, Site};
 use tyndall_base::Vec3;
 use tyndall_spectral::{Spectrum, Wavelengths};
 
 /// The links of one shared point.
-pub(super) struct Company<const N: usize> {
-    links: [Option<Link<N>>; MOST],
-    /// How many there may be.
-    most: usize,
+pub(super) struct Company<'a, const N: usize> {
+    /// By who reaches the point.
+    links: &'a mut Vec<(usize, Link<N>)>,
     /// Sums over all links.
     pub through: Spectrum<N>,
     pub density: Spectrum<N>,
@@ -19,14 +18,14 @@ pub(super) struct Company<const N: usize> {
     leaves: Vec3,
 }
 
-impl<const N: usize> Company<N> {
-    /// Nobody yet, of `most` who may join.
+impl<'a, const N: usize> Company<'a, N> {
+    /// Nobody yet; `links` is room for those who may join.
     #[inline(always)]
-    pub fn empty(most: usize) -> Self {
+    pub fn empty(links: &'a mut Vec<(usize, Link<N>)>) -> Self {
+        links.clear();
         let zero = Spectrum::ZERO;
         Self {
-            links: nobody(),
-            most,
+            links,
             through: zero,
             density: zero,
             lit: (Vec3::ZERO, zero),
@@ -39,17 +38,15 @@ impl<const N: usize> Company<N> {
     pub fn join(&mut self, i: usize, link: Link<N>) {
         self.through += link.through;
         self.density += link.density;
-        self.links[i] = Some(link);
+        self.links.push((i, link));
     }
 
     /// Parts of `l` for the members that `give` says, by what reaches each.
     #[inline(always)]
     pub fn deal(&self, l: Spectrum<N>, mut give: impl FnMut(usize, Spectrum<N>)) {
         let l = l.safe_div(self.through);
-        for i in 0..self.most {
-            if let Some(link) = &self.links[i] {
-                give(i, l * link.through);
-            }
+        for (i, link) in self.links.iter() {
+            give(*i, l * link.through);
         }
     }
 
@@ -85,10 +82,8 @@ impl<const N: usize> Company<N> {
         give: &mut impl FnMut(usize, Spectrum<N>),
     ) {
         let l = l.safe_div(self.sums(at, wi, w).0);
-        for i in 0..self.most {
-            if let Some(link) = &self.links[i] {
-                give(i, l * link.through * at.eval_from(link.wo, wi, w).0);
-            }
+        for (i, link) in self.links.iter() {
+            give(*i, l * link.through * at.eval_from(link.wo, wi, w).0);
         }
     }
 
@@ -96,18 +91,16 @@ impl<const N: usize> Company<N> {
     #[inline(always)]
     fn sums(&self, at: &impl Scatters<N>, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>) {
         let (mut through, mut density) = (Spectrum::ZERO, Spectrum::ZERO);
-        for i in 0..self.most {
-            if let Some(link) = &self.links[i] {
-                let (f, pdf) = at.eval_from(link.wo, wi, w);
-                through += link.through * f;
-                density += link.density * pdf;
-            }
+        for (_, link) in self.links.iter() {
+            let (f, pdf) = at.eval_from(link.wo, wi, w);
+            through += link.through * f;
+            density += link.density * pdf;
         }
         (through, density)
     }
 }
 
-impl<const N: usize> Audience<N> for Company<N> {
+impl<const N: usize> Audience<N> for Company<'_, N> {
     #[inline(always)]
     fn eval(
         &self,

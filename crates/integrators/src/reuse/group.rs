@@ -3,7 +3,7 @@
 use super::{
     Grouping, MOST,
     company::Company,
-    end::{Origin, Shared},
+    end::{Link, Origin, Shared},
     nobody,
 };
 use crate::{
@@ -33,7 +33,7 @@ struct Member<'s, const N: usize> {
 const NOWHERE: Ray = Ray { o: Vec3::ZERO, d: Vec3::ZERO, t_max: 0.0, time: 0.0 };
 
 /// First scatterings of a group, where others' paths may begin.
-type Origins<'s, const N: usize> = [Option<Origin<'s, N>>; MOST];
+type Origins<'a, 's, const N: usize> = &'a [Option<Origin<'s, N>>];
 /// Rays of one query.
 const FAN: usize = 16;
 
@@ -77,8 +77,9 @@ impl PixelPass {
         if guide.counts.is_some() && !(0..number).filter_map(pixels).any(takes) {
             return;
         }
-        let mut members = nobody();
-        let mut origins: Origins<'_, N> = nobody();
+        let mut members = nobody(number);
+        let mut origins: Vec<Option<Origin<'_, N>>> = nobody(number);
+        let mut links = Vec::with_capacity(number);
         for k in 0..number {
             if let Some((x, y)) = pixels(k) {
                 out.mark(x, y, sample);
@@ -99,7 +100,7 @@ impl PixelPass {
         for k in 0..number {
             let Some(member) = &mut members[k] else { continue };
             out.mark(member.pixel.0, member.pixel.1, sample);
-            self.go_on(member, (&origins, number), k, &w, &mut all);
+            self.go_on(member, (&origins, &mut links), k, &w, &mut all);
         }
         let response = self.channels.prepare(&w);
         for k in 0..number {
@@ -143,12 +144,12 @@ impl PixelPass {
     fn go_on<const N: usize>(
         &self,
         member: &mut Member<'_, N>,
-        origins: (&Origins<'_, N>, usize),
+        (origins, links): (Origins<'_, '_, N>, &mut Vec<(usize, Link<N>)>),
         k: usize,
         w: &Wavelengths<N>,
         all: &mut [Spectrum<N>; MOST],
     ) {
-        let mut company = self.company(origins, k, member, w);
+        let mut company = self.company((origins, links), k, member, w);
         let Member { walk, site, sampler, .. } = member;
         let (mut sends, mut goes_on) = (None, site.is_some());
         if let Some((company, own)) = &mut company {
@@ -173,18 +174,18 @@ impl PixelPass {
 
     /// Who shares what path `k`, that of `member`, goes on from, and one over the density of that point as drawn.
     #[inline(always)]
-    fn company<const N: usize>(
+    fn company<'a, const N: usize>(
         &self,
-        (origins, number): (&Origins<'_, N>, usize),
+        (origins, links): (Origins<'_, '_, N>, &'a mut Vec<(usize, Link<N>)>),
         k: usize,
         member: &mut Member<'_, N>,
         w: &Wavelengths<N>,
-    ) -> Option<(Company<N>, f32)> {
+    ) -> Option<(Company<'a, N>, f32)> {
         let (Some(at), Some(from)) = (&member.site, &origins[k]) else { return None };
         let shared = Shared::new(&member.walk, from, at)?;
         let scene = (&*self.scene, &self.settings);
-        let mut company = Company::empty(number);
-        for first in (0..number).step_by(FAN) {
+        let mut company = Company::empty(links);
+        for first in (0..origins.len()).step_by(FAN) {
             // one query for the rays of several members to the point
             let (mut aims, mut fan, mut n) = ([const { None }; FAN], [NOWHERE; FAN], 0);
             for i in 0..FAN {

@@ -42,11 +42,11 @@ const MANY: f32 = 0.35;
 /// Most paths that are shared.
 pub(crate) const MOST: usize = 64;
 
-/// Room for all who may share. In a function of its own: 64 stores side by side in the loop over paths keep the compiler busy for
-/// minutes.
-#[inline(never)]
-fn nobody<T>() -> [Option<T>; MOST] {
-    [const { None }; MOST]
+/// Room for `number` who may share: on the heap, for a new array would be filled with whole empty members.
+fn nobody<T>(number: usize) -> Vec<Option<T>> {
+    let mut room = Vec::with_capacity(number);
+    room.resize_with(number, || None);
+    room
 }
 
 /// How pixels are grouped: a square has `cells` x `cells` cells, each of `cell` x `cell` pixels. Paths of one pixel of each
