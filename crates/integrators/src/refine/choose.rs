@@ -1,6 +1,6 @@
 //! Which pixels take light from paths of their own, and from how many.
 //!
-//! Candidates are the pixels onto which lamps and points of light are projected. A few paths each tell how much the lowest
+//! Candidates are the pixels onto which lamps and points of light are projected, and those of [`highlights`](super::highlights). A few paths each tell how much the lowest
 //! orders vary there; what varies by less than the rest of the picture stays as it is.
 
 use super::{Extra, Refinement};
@@ -17,7 +17,7 @@ use tyndall_transport::{
 };
 
 /// The stream of numbers of the paths that measure, the same for all seeds.
-const SEED: u64 = 0x7269_6d73;
+pub(super) const SEED: u64 = 0x7269_6d73;
 /// Paths that measure, all pixels together, at least; they are short.
 const PATHS: u64 = 16_384;
 /// And this many times fewer than there are pixels, where that is more; but no more than this.
@@ -26,6 +26,8 @@ const MOST_PATHS: u64 = 1 << 20;
 /// Paths for one pixel, at least and at most.
 const FEW: u64 = 4;
 const MANY: u64 = 256;
+/// And for one with a highlight.
+const SOME: u64 = 8;
 /// Lights beyond this number are not looked at.
 const LIGHTS: usize = 4096;
 /// Pixels may be looked at this many times, where lamps overlap.
@@ -48,22 +50,28 @@ impl PixelPass {
         }
         let pixels = u64::from(self.resolution[0]) * u64::from(self.resolution[1]);
         let (room, budget) = (pixels / SHARE, (pixels / PIXELS_PER_PATH).clamp(PATHS, MOST_PATHS));
-        let candidates = self.candidates(room.min(budget / FEW));
-        if candidates.is_empty() {
-            return Refinement::default();
-        }
-        let each = (budget / candidates.len() as u64).min(MANY) as u32;
-        let usual = USUAL * pilot().scattered.powi(2);
-        let varying = candidates.into_iter().filter_map(|(at, from)| {
+        let rims = self.candidates(room.min(budget / FEW));
+        let pilot = pilot();
+        let highlights = self.highlights(room.min(budget / SOME), &pilot);
+        let each = (budget / (rims.len() as u64).max(1)).min(MANY) as u32;
+        // a pixel may be both: then it is looked at as what varies more
+        let mut candidates: BTreeMap<_, _> = highlights.into_iter().map(|at| (at, (2, SOME as u32))).collect();
+        candidates.extend(rims.into_iter().map(|(at, from)| (at, (from, each))));
+        let usual = USUAL * pilot.scattered.powi(2);
+        let varying = candidates.into_iter().filter_map(|(at, (from, each))| {
             let variance = self.variance(at, from, each);
-            (variance > usual).then(|| (at, from, (variance / usual).sqrt().min(MOST as f32)))
+            // the least variance for the work: in proportion to the root of variance over cost
+            let n = (variance / (usual * cost_of(from) as f32)).sqrt();
+            (n >= 2.0).then(|| (at, from, n.min(MOST as f32)))
         });
         let varying: Vec<_> = varying.collect();
         // as many as there is room for
         let cost = |shift: u32| -> u64 {
-            let all =
-                varying.iter().map(|&(_, from, n)| u64::from(2 * from - 1) * u64::from(paths(n, shift)));
-            all.sum()
+            let costs = varying.iter().map(|&(_, from, n)| match paths(n, shift) {
+                0 | 1 => 0,
+                n => u64::from(cost_of(from)) * u64::from(n),
+            });
+            costs.sum()
         };
         let shift = (0..=MOST.ilog2()).find(|&shift| cost(shift) <= room).unwrap_or(u32::MAX);
         let chosen = varying.iter().map(|&(at, from, n)| (at, Extra { from, paths: paths(n, shift) }));
@@ -145,6 +153,11 @@ impl PixelPass {
         let n = f64::from(n);
         ((squares - sum * sum / n) / (n - 1.0)) as f32
     }
+}
+
+/// What a path for light of fewer than `from` scatterings costs.
+fn cost_of(from: u32) -> u32 {
+    2 * from - 1
 }
 
 /// A power of two not above `n`, halved `shift` times; at least one.

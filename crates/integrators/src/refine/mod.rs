@@ -1,5 +1,5 @@
 //! More paths for the lowest orders of light in the few pixels where those vary most: at the rim of a lamp that the camera
-//! sees, and around a point of light in a medium.
+//! sees, around a point of light in a medium, and where a rough mirror shows a lamp.
 //!
 //! A sample of such a pixel takes its light of `from` and more scatterings from the path that all pixels have, and that of
 //! fewer, which is short work, from `paths` paths of its own:
@@ -11,6 +11,7 @@
 //! The mean is the same whichever pixels are chosen. Which they are is decided before the first sample.
 
 mod choose;
+mod highlights;
 
 use crate::{pilot::Orders, pixel::PixelPass, settings::Settings};
 use tyndall_film::Weights;

@@ -83,6 +83,15 @@ impl Material {
         matches!(self, Self::Mapped(m) if matches!(m.relief, Relief::Heights(_)))
     }
 
+    /// Whether it only scatters evenly.
+    pub fn is_matte(&self) -> bool {
+        match self {
+            Self::Diffuse(_) | Self::DiffuseTransmission(_) | Self::Mix(_) => true,
+            Self::Mapped(m) => m.material.is_matte(),
+            _ => false,
+        }
+    }
+
     /// Directional albedo at normal incidence, without the angular details: for the `albedo` output.
     pub fn albedo<const N: usize>(&self, s: &SurfacePoint, w: &Wavelengths<N>) -> Spectrum<N> {
         let at = TextureContext { p: s.p, n: s.ng, uv: s.uv };
