@@ -170,6 +170,6 @@ where
         l *= division.of_flights(light, (target.p - vertex.p).length());
     }
     let heuristic = Heuristic::at(settings, vertex.known.inside);
-    let others = [weight.r_u * by_chance, by_rival];
-    combine(heuristic, weight.beta * f * s.t * l, weight.r_u * by_light, others)
+    let (trust, others) = (heuristic.trust(), [weight.r_u * by_chance, by_rival]);
+    combine(heuristic, weight.beta * f * s.t * l * trust, weight.r_u * by_light * trust, others)
 }

@@ -40,8 +40,8 @@ pub struct Settings {
     /// Where the lights are few, sample each of them at a path's first surface, not one that is drawn, and an area that is alone
     /// twice.
     pub each_light: bool,
-    /// Combine light sampling, chance hits and equiangular samples by the power heuristic where transmittance has a closed form;
-    /// off: by the balance heuristic.
+    /// Combine light sampling, chance hits and equiangular samples by the power heuristic; in media that vary by densities, with
+    /// less trust in light sampling. Off: by the balance heuristic.
     pub power: bool,
     /// `exp(-sigma_t d)` on shadow rays; off: a free flight along the shadow ray that passes or does not.
     pub exact_transmittance: bool,

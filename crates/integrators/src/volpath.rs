@@ -390,7 +390,8 @@ impl<'s, const N: usize> Walk<'s, N> {
             let light = self.scene.lights.get(id);
             let le = light.le_infinite(self.previous, self.ray.d, self.w);
             let pdf = self.pmf(id) * light.pdf_infinite(self.previous, self.ray.d);
-            self.met(le, [self.weight.r_l * self.by_light(pdf), Spectrum::ZERO], seen);
+            let by_light = self.weight.r_l * (self.by_light(pdf) * self.heuristic.trust());
+            self.met(le, [by_light, Spectrum::ZERO], seen);
         }
     }
 
@@ -484,7 +485,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         if self.settings.light_sampling && !(self.weight.r_l.is_zero() && self.weight.r_e.is_zero()) {
             let target = light.target(&self.scene.accel, hit, s);
             let pdf = self.pmf(id) * light.pdf_li(&self.scene.accel, self.previous, self.ray.d, &target);
-            others[0] = self.weight.r_l * pdf;
+            others[0] = self.weight.r_l * (pdf * self.heuristic.trust());
             if let Some(rival) = &self.rival {
                 others[1] = self.weight.r_e * rival.density(self.scene, id, &target);
             }

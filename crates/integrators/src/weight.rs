@@ -135,8 +135,11 @@ pub enum Heuristic {
     /// By densities (Veach 1997, eq. 9.8): `value / sum of mean(r)`.
     Balance,
     /// By their squares (eq. 9.13): `value mean(own) / sum of mean(r)^2`. Better where a technique of small density would add
-    /// its noise to a good one; not where densities do not tell of the noise, as where transmittance is estimated.
+    /// its noise to a good one.
     Power,
+    /// By densities, of which light sampling's counts half: shadow rays estimate their transmittance, and that noise is not in
+    /// the density.
+    Tracked,
 }
 
 impl Heuristic {
@@ -144,7 +147,17 @@ impl Heuristic {
     #[inline(always)]
     pub fn at<const N: usize>(settings: &Settings, inside: Option<&Inside<'_, N>>) -> Self {
         let tracked = inside.is_some_and(|inside| inside.varying.is_some());
-        if settings.power && !tracked { Self::Power } else { Self::Balance }
+        match settings.power {
+            true if tracked => Self::Tracked,
+            true => Self::Power,
+            false => Self::Balance,
+        }
+    }
+
+    /// What the density of light sampling is multiplied by, wherever it enters a weight.
+    #[inline(always)]
+    pub fn trust(self) -> f32 {
+        if self == Self::Tracked { 0.5 } else { 1.0 }
     }
 }
 
@@ -166,7 +179,7 @@ pub fn combine<const N: usize, const K: usize>(
         let ratio = r.mean() / own;
         sum += if heuristic == Heuristic::Power { ratio * ratio } else { ratio };
     }
-    value * (1.0 / (own * sum))
+    value * (1.0 / own / sum)
 }
 
 /// `exp(x)` per lane with the exponent cut to the range that products of f32 bear.
@@ -190,6 +203,12 @@ mod tests {
         assert!(w.throughput().is_finite());
         let none = divide(Spectrum::<4>::ONE, Spectrum::ZERO);
         assert!(none.is_zero());
+    }
+
+    #[test]
+    fn only_estimated_transmittance_lessens_trust() {
+        let trust = [Heuristic::Balance, Heuristic::Power, Heuristic::Tracked].map(Heuristic::trust);
+        assert!(trust == [1.0, 1.0, 0.5]);
     }
 
     /// What a technique brings, times how often it does, adds up to the value, whatever the heuristic.
