@@ -42,6 +42,16 @@ const MIST: &str = "
     Shape \"sphere\" \"float radius\" 3
     LightSource \"point\" \"point3 from\" [0.02 -0.02 0] \"float scale\" 50";
 
+/// A plate of rough metal in the middle of the picture, which mirrors a small lamp behind the camera.
+const MIRROR: &str = "
+    AttributeBegin
+      AreaLightSource \"diffuse\" \"float scale\" 4000
+      Translate 0 0 6
+      Shape \"sphere\" \"float radius\" 0.05
+    AttributeEnd
+    Material \"conductor\" \"bool remaproughness\" false \"float roughness\" 0.03
+    Shape \"disk\" \"float radius\" 0.6";
+
 /// Distance of a pixel's centre from that of the picture \[pixels\].
 fn from_centre((x, y): (u32, u32)) -> f32 {
     let d = |k: u32| k as f32 + 0.5 - SIDE as f32 / 2.0;
@@ -78,8 +88,21 @@ fn a_point_of_light_in_a_mist_is_refined_where_it_shows() {
 }
 
 #[test]
+fn a_lamp_in_a_rough_mirror_is_refined() {
+    let pass = picture("", MIRROR).pass;
+    let middle = pass.refinement.of(SIDE / 2, SIDE / 2);
+    assert!(middle.from == 2 && middle.paths >= 4, "{middle:?}");
+    // the mirror's rim is at 6.6 pixels
+    let rim = 0.6 / (4.0 * 20f32.to_radians().tan()) * SIDE as f32 / 2.0;
+    assert!(pass.refinement.iter().all(|(at, _)| from_centre(at) < rim + 1.0));
+    let matte =
+        MIRROR.replace("\"conductor\" \"bool remaproughness\" false \"float roughness\" 0.03", "\"diffuse\"");
+    assert_eq!(picture("", &matte).pass.refinement.iter().count(), 0, "a matte disk");
+}
+
+#[test]
 fn refined_pixels_have_the_same_means_and_less_variance() {
-    for more in [lamp(RADIUS, 300.0), MIST.into()] {
+    for more in [lamp(RADIUS, 300.0), MIST.into(), MIRROR.into()] {
         for reuse in ["", " \"bool pathreuse\" false"] {
             let mut plans =
                 [reuse.to_owned(), format!("\"bool refine\" false{reuse}")].map(|i| picture(&i, &more));
@@ -88,7 +111,7 @@ fn refined_pixels_have_the_same_means_and_less_variance() {
             for channel in 0..3 {
                 let [a, b] = [&fine, &coarse].map(|film| film.mean_over(channel, film.bounds));
                 let error = (a.1.variance + b.1.variance).sqrt();
-                // twelve scores
+                // eighteen scores
                 assert!((a.0 - b.0).abs() < 4.5 * error, "{reuse}: {} and {} +- {error}", a.0, b.0);
                 assert!(error < 0.02 * b.0, "too coarse to tell: {} +- {error}", b.0);
                 let variance = |film: &Developed| -> f32 {

@@ -55,7 +55,8 @@ impl PixelPass {
         let highlights = self.highlights(room.min(budget / SOME), &pilot);
         let each = (budget / (rims.len() as u64).max(1)).min(MANY) as u32;
         // a pixel may be both: then it is looked at as what varies more
-        let mut candidates: BTreeMap<_, _> = highlights.into_iter().map(|at| (at, (2, SOME as u32))).collect();
+        let mut candidates: BTreeMap<_, _> =
+            highlights.into_iter().map(|at| (at, (2, SOME as u32))).collect();
         candidates.extend(rims.into_iter().map(|(at, from)| (at, (from, each))));
         let usual = USUAL * pilot.scattered.powi(2);
         let varying = candidates.into_iter().filter_map(|(at, (from, each))| {

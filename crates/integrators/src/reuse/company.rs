@@ -24,13 +24,7 @@ impl<'a, const N: usize> Company<'a, N> {
     pub fn empty(links: &'a mut Vec<(usize, Link<N>)>) -> Self {
         links.clear();
         let zero = Spectrum::ZERO;
-        Self {
-            links,
-            through: zero,
-            density: zero,
-            lit: (Vec3::ZERO, zero),
-            leaves: Vec3::ZERO,
-        }
+        Self { links, through: zero, density: zero, lit: (Vec3::ZERO, zero), leaves: Vec3::ZERO }
     }
 
     /// Member `i` reaches the point by `link`.

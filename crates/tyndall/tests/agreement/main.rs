@@ -52,7 +52,12 @@ fn through_nested_boundaries() {
     all_agree(&scenes::NESTED);
 }
 
-const ALL: [&SmallScene; 7] = [
+#[test]
+fn among_metal_and_rough_glass() {
+    all_agree(&scenes::GLOSSY);
+}
+
+const ALL: [&SmallScene; 8] = [
     &scenes::FOG_BOX,
     &scenes::THIN_SPOT,
     &scenes::POINT_LINES,
@@ -60,6 +65,7 @@ const ALL: [&SmallScene; 7] = [
     &scenes::GLASS_IN_FOG,
     &scenes::GLOWING,
     &scenes::NESTED,
+    &scenes::GLOSSY,
 ];
 
 #[test]

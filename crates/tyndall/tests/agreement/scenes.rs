@@ -214,3 +214,48 @@ pub const NESTED: SmallScene = scene(
     6,
     256,
 );
+
+/// Brushed and polished metal, rough dispersive glass and a translucent sheet between coloured walls, with a mist in the room.
+pub const GLOSSY: SmallScene = scene(
+    "metal and rough glass",
+    r#"
+    MakeNamedMedium "mist" "string type" "homogeneous" "float g" 0.6
+      "spectrum sigma_s" [360 0.1 550 0.06 830 0.02] "spectrum sigma_a" [360 0.01 830 0.03]
+    MediumInterface "" "mist"
+    LookAt 0 0 0.98  0 -0.2 0  0 1 0
+    Camera "perspective" "float fov" 75
+    Film "rgb" "string sensor" "cie1931" "integer xresolution" 12 "integer yresolution" 12
+    WorldBegin
+    MediumInterface "mist" "mist"
+    Material "diffuse" "spectrum reflectance" [360 0.7 830 0.75]
+    Shape "bilinearmesh" "point3 P" [-1 1 -1  1 1 -1  -1 1 1  1 1 1]
+    Shape "bilinearmesh" "point3 P" [-1 -1 1  1 -1 1  -1 1 1  1 1 1]
+    Shape "bilinearmesh" "point3 P" [-1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1]
+    Material "diffuse" "spectrum reflectance" [360 0.05 560 0.05 640 0.62 830 0.66]
+    Shape "bilinearmesh" "point3 P" [-1 -1 -1  -1 1 -1  -1 -1 1  -1 1 1]
+    Material "diffuse" "spectrum reflectance" [360 0.1 460 0.5 560 0.2 830 0.1]
+    Shape "bilinearmesh" "point3 P" [1 -1 -1  1 1 -1  1 -1 1  1 1 1]
+    Material "conductor" "bool remaproughness" false "float uroughness" 0.15 "float vroughness" 0.4
+      "spectrum eta" "metal-Cu-eta" "spectrum k" "metal-Cu-k"
+    Shape "bilinearmesh" "point3 P" [-1 -1 -1  1 -1 -1  -1 -1 1  1 -1 1]
+    AttributeBegin
+      Material "conductor" "bool remaproughness" false "float roughness" 0.12
+      Translate -0.45 -0.55 -0.3
+      Shape "sphere" "float radius" 0.4
+    AttributeEnd
+    AttributeBegin
+      Material "dielectric" "bool remaproughness" false "float roughness" 0.25 "spectrum eta" "glass-SF11"
+      MediumInterface "" "mist"
+      Translate 0.5 -0.6 0
+      Shape "sphere" "float radius" 0.35
+    AttributeEnd
+    Material "diffusetransmission" "spectrum reflectance" [360 0.2 830 0.4] "spectrum transmittance" [360 0.5 830 0.2]
+    Shape "bilinearmesh" "point3 P" [-0.2 -0.3 -0.7  0.4 -0.3 -0.6  -0.2 0.4 -0.7  0.4 0.4 -0.6]
+    AttributeBegin
+      AreaLightSource "diffuse" "spectrum L" [360 9 560 8 830 5]
+      Shape "bilinearmesh" "point3 P" [-0.4 0.95 -0.4  0.4 0.95 -0.4  -0.4 0.95 0.4  0.4 0.95 0.4]
+    AttributeEnd
+    "#,
+    6,
+    256,
+);
