@@ -1,7 +1,6 @@
 //! Light sampling at a vertex, combined with chance hits and with equiangular sampling.
 
 use crate::{
-    ember,
     equiangular::{Division, Segment},
     medium::Inside,
     settings::Settings,
@@ -54,19 +53,31 @@ pub struct Scatterer<'a, 's, S, F, const N: usize> {
     pub known: Place<'a, 's, N>,
 }
 
+/// What sampling lights needs to know of the path that scatters.
+#[derive(Clone, Copy)]
+pub struct Arrival<'a, const N: usize> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Switches.
+    pub settings: &'a Settings,
+    /// The path's weight at the vertex.
+    pub weight: &'a PathWeight<N>,
+    /// Its wavelengths.
+    pub w: &'a Wavelengths<N>,
+}
+
 impl<S, F, const N: usize> Scatterer<'_, '_, S, F, N>
 where
     S: Fn(Vec3) -> (Vec3, MediumId),
+    F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
 {
     /// The shadow ray to `end`, which lies in the direction `wi`; `None` when something blocks it.
     #[inline(always)]
     pub fn shadow(
         &self,
-        scene: &Scene,
-        settings: &Settings,
+        path: &Arrival<'_, N>,
         wi: Vec3,
         end: End,
-        w: &Wavelengths<N>,
         sampler: &mut PathSampler,
     ) -> Option<Shadow<N>> {
         let (o, medium) = (self.spawn)(wi);
@@ -74,102 +85,78 @@ where
         let inside = if medium == self.known.medium {
             self.known.inside
         } else {
-            fresh = Inside::entered(scene, medium, self.surface, w);
+            fresh = Inside::entered(path.scene, medium, self.surface, path.w);
             fresh.as_ref()
         };
-        shadow(scene, settings, o, Place { medium, inside, time: self.known.time }, end, w, sampler)
+        let start = Place { medium, inside, time: self.known.time };
+        shadow(path.scene, path.settings, o, start, end, path.w, sampler)
     }
-}
 
-/// One light sample at `vertex`: light per lane.
-#[inline]
-pub fn sample<const N: usize, S, F>(
-    scene: &Scene,
-    settings: &Settings,
-    vertex: &Scatterer<'_, '_, S, F, N>,
-    weight: &PathWeight<N>,
-    w: &Wavelengths<N>,
-    sampler: &mut PathSampler,
-) -> Spectrum<N>
-where
-    S: Fn(Vec3) -> (Vec3, MediumId),
-    F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
-{
-    let u_light = sampler.next_1d();
-    let u = sampler.next_2d();
-    let Some(selected) = scene.lights.select_at(vertex.p, vertex.n, u_light) else { return Spectrum::ZERO };
-    towards(scene, settings, vertex, selected, [u.x, u.y], weight, w, sampler)
-}
-
-/// `times` samples of each of a few lights at `vertex`: light per lane.
-#[inline(never)]
-pub fn each<const N: usize, S, F>(
-    scene: &Scene,
-    settings: &Settings,
-    vertex: &Scatterer<'_, '_, S, F, N>,
-    (lights, times): (&[LightId], u32),
-    weight: &PathWeight<N>,
-    w: &Wavelengths<N>,
-    sampler: &mut PathSampler,
-) -> Spectrum<N>
-where
-    S: Fn(Vec3) -> (Vec3, MediumId),
-    F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
-{
-    let mut l = Spectrum::ZERO;
-    for &id in lights {
-        for _ in 0..times {
-            let u = sampler.next_2d();
-            // samples on average in place of a probability
-            let selected = Selected { id, pmf: times as f32 };
-            l += towards(scene, settings, vertex, selected, [u.x, u.y], weight, w, sampler);
+    /// A sample of one light, which is drawn: light per lane.
+    #[inline]
+    pub fn sample(&self, path: &Arrival<'_, N>, sampler: &mut PathSampler) -> Spectrum<N> {
+        let u_light = sampler.next_1d();
+        let u = sampler.next_2d();
+        match path.scene.lights.select_at(self.p, self.n, u_light) {
+            Some(selected) => self.towards(path, selected, [u.x, u.y], sampler),
+            None => Spectrum::ZERO,
         }
     }
-    l
-}
 
-/// A sample of one light at `vertex`: light per lane.
-#[expect(clippy::too_many_arguments, reason = "the state of a path and of a sample")]
-#[inline(always)]
-fn towards<const N: usize, S, F>(
-    scene: &Scene,
-    settings: &Settings,
-    vertex: &Scatterer<'_, '_, S, F, N>,
-    selected: Selected,
-    u: [f32; 2],
-    weight: &PathWeight<N>,
-    w: &Wavelengths<N>,
-    sampler: &mut PathSampler,
-) -> Spectrum<N>
-where
-    S: Fn(Vec3) -> (Vec3, MediumId),
-    F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
-{
-    let light = scene.lights.get(selected.id);
-    if let Light::Volume(volume) = light {
-        let choice = (&**volume, selected.pmf);
-        let l = ember::sample(scene, settings, vertex, choice, u, weight, w, sampler);
-        return l.unwrap_or(Spectrum::ZERO);
+    /// `times` samples of each of a few lights: light per lane.
+    #[inline(never)]
+    pub fn each(
+        &self,
+        path: &Arrival<'_, N>,
+        (lights, times): (&[LightId], u32),
+        sampler: &mut PathSampler,
+    ) -> Spectrum<N> {
+        let mut l = Spectrum::ZERO;
+        for &id in lights {
+            for _ in 0..times {
+                let u = sampler.next_2d();
+                // samples on average in place of a probability
+                let selected = Selected { id, pmf: times as f32 };
+                l += self.towards(path, selected, [u.x, u.y], sampler);
+            }
+        }
+        l
     }
-    let Some(sample) = light.sample_li(&scene.accel, vertex.p, u, w) else { return Spectrum::ZERO };
-    let (f, pdf) = (vertex.eval)(sample.wi);
-    if f.is_zero() {
-        return Spectrum::ZERO;
+
+    /// A sample of one light: light per lane.
+    #[inline(always)]
+    fn towards(
+        &self,
+        path: &Arrival<'_, N>,
+        selected: Selected,
+        u: [f32; 2],
+        sampler: &mut PathSampler,
+    ) -> Spectrum<N> {
+        let Arrival { scene, settings, weight, w } = *path;
+        let light = scene.lights.get(selected.id);
+        if let Light::Volume(volume) = light {
+            return self.ember(path, (volume, selected.pmf), u, sampler).unwrap_or(Spectrum::ZERO);
+        }
+        let Some(sample) = light.sample_li(&scene.accel, self.p, u, w) else { return Spectrum::ZERO };
+        let (f, pdf) = (self.eval)(sample.wi);
+        if f.is_zero() {
+            return Spectrum::ZERO;
+        }
+        let end = sample.target.map_or(End::Infinity(sample.wi), End::At);
+        let Some(s) = self.shadow(path, sample.wi, end, sampler) else { return Spectrum::ZERO };
+        // densities of the techniques that make this path, lane by lane
+        let by_light = s.r_l * (selected.pmf * sample.pdf);
+        let by_chance = if sample.delta { Spectrum::ZERO } else { pdf * s.r_u };
+        let by_rival = match (&self.rival, &sample.target) {
+            (Some(rival), Some(target)) => weight.r_e * s.r_l * rival.density(scene, selected.id, target),
+            _ => Spectrum::ZERO,
+        };
+        let mut l = sample.l;
+        if let (Some(division), Some(target)) = (&self.division, &sample.target) {
+            l *= division.of_flights(light, (target.p - self.p).length());
+        }
+        let heuristic = Heuristic::at(settings, self.known.inside);
+        let (trust, others) = (heuristic.trust(), [weight.r_u * by_chance, by_rival]);
+        combine(heuristic, weight.beta * f * s.t * l * trust, weight.r_u * by_light * trust, others)
     }
-    let end = sample.target.map_or(End::Infinity(sample.wi), End::At);
-    let Some(s) = vertex.shadow(scene, settings, sample.wi, end, w, sampler) else { return Spectrum::ZERO };
-    // densities of the techniques that make this path, lane by lane
-    let by_light = s.r_l * (selected.pmf * sample.pdf);
-    let by_chance = if sample.delta { Spectrum::ZERO } else { pdf * s.r_u };
-    let by_rival = match (&vertex.rival, &sample.target) {
-        (Some(rival), Some(target)) => weight.r_e * s.r_l * rival.density(scene, selected.id, target),
-        _ => Spectrum::ZERO,
-    };
-    let mut l = sample.l;
-    if let (Some(division), Some(target)) = (&vertex.division, &sample.target) {
-        l *= division.of_flights(light, (target.p - vertex.p).length());
-    }
-    let heuristic = Heuristic::at(settings, vertex.known.inside);
-    let (trust, others) = (heuristic.trust(), [weight.r_u * by_chance, by_rival]);
-    combine(heuristic, weight.beta * f * s.t * l * trust, weight.r_u * by_light * trust, others)
 }

@@ -9,17 +9,16 @@
 //!
 //! with `P` the probability of choosing the medium among lights, `p_V` its density of points per volume (see
 //! [`VolumeLight`]), and the products over the null collisions between, as flights and shadow rays have them (see
-//! [`crate::tracking`]). The contribution is `beta f T sigma_a le` either way, and the balance heuristic over techniques and
-//! wavelengths is that of surfaces.
+//! [`crate::tracking`]). The contribution is `beta f T sigma_a le` either way, and the balance heuristic combines techniques
+//! and wavelengths.
 
 use crate::{
-    direct::Scatterer,
-    settings::Settings,
+    direct::{Arrival, Scatterer},
     shadow::End,
-    weight::{PathWeight, divide},
+    weight::divide,
 };
 use tyndall_base::Vec3;
-use tyndall_spectral::{Spectrum, Wavelengths};
+use tyndall_spectral::Spectrum;
 use tyndall_transport::{
     MediumId, Scene,
     light::{Target, VolumeLight},
@@ -56,45 +55,43 @@ impl<'s> Ember<'s> {
     }
 }
 
-/// Light of one point of `light`, which was chosen with the probability `pmf`, that `vertex` scatters; `None` for none.
-#[expect(clippy::too_many_arguments, reason = "the state of a path and of a sample")]
-#[inline]
-pub fn sample<const N: usize, S, F>(
-    scene: &Scene,
-    settings: &Settings,
-    vertex: &Scatterer<'_, '_, S, F, N>,
-    (light, pmf): (&VolumeLight, f32),
-    u: [f32; 2],
-    weight: &PathWeight<N>,
-    w: &Wavelengths<N>,
-    sampler: &mut PathSampler,
-) -> Option<Spectrum<N>>
+impl<S, F, const N: usize> Scatterer<'_, '_, S, F, N>
 where
     S: Fn(Vec3) -> (Vec3, MediumId),
     F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
 {
-    let more = sampler.next_2d();
-    if !light.serves(vertex.p) {
-        return None;
+    /// Light of one point of `light`, which was chosen with the probability `pmf`, that the vertex scatters; `None` for none.
+    #[inline]
+    pub(crate) fn ember(
+        &self,
+        path: &Arrival<'_, N>,
+        (light, pmf): (&VolumeLight, f32),
+        u: [f32; 2],
+        sampler: &mut PathSampler,
+    ) -> Option<Spectrum<N>> {
+        let more = sampler.next_2d();
+        if !light.serves(self.p) {
+            return None;
+        }
+        let y = light.sample([more.x, u[0], u[1], more.y]);
+        let [emitted, majorant] = light.matter().glow_at(y.p, path.w)?;
+        let to = y.p - self.p;
+        let d2 = to.length_squared();
+        if emitted.is_zero() || d2.is_nan() || d2 <= 0.0 {
+            return None;
+        }
+        let wi = to * (1.0 / d2.sqrt());
+        let (f, pdf) = (self.eval)(wi);
+        if f.is_zero() {
+            return None;
+        }
+        let s = self.shadow(path, wi, End::At(Target::free(y.p)), sampler)?;
+        // a boundary on the way may have left the point in another medium
+        if s.end != light.medium() {
+            return None;
+        }
+        let by_light = s.r_l * (pmf * y.pdf * d2);
+        let by_chance = pdf * s.r_u * majorant;
+        Some(divide(path.weight.beta * f * s.t * emitted, path.weight.r_u * (by_light + by_chance)))
     }
-    let y = light.sample([more.x, u[0], u[1], more.y]);
-    let [emitted, majorant] = light.matter().glow_at(y.p, w)?;
-    let to = y.p - vertex.p;
-    let d2 = to.length_squared();
-    if emitted.is_zero() || d2.is_nan() || d2 <= 0.0 {
-        return None;
-    }
-    let wi = to * (1.0 / d2.sqrt());
-    let (f, pdf) = (vertex.eval)(wi);
-    if f.is_zero() {
-        return None;
-    }
-    let s = vertex.shadow(scene, settings, wi, End::At(Target::free(y.p)), w, sampler)?;
-    // a boundary on the way may have left the point in another medium
-    if s.end != light.medium() {
-        return None;
-    }
-    let by_light = s.r_l * (pmf * y.pdf * d2);
-    let by_chance = pdf * s.r_u * majorant;
-    Some(divide(weight.beta * f * s.t * emitted, weight.r_u * (by_light + by_chance)))
 }

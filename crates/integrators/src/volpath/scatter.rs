@@ -2,7 +2,7 @@
 
 use super::{MediumSite, SurfaceSite, Walk, site::Scatters};
 use crate::{
-    direct::{self, Scatterer},
+    direct::{Arrival, Scatterer},
     observer::PathObserver,
     shadow::Place,
     steer::mixed,
@@ -127,8 +127,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             let value = match few {
                 None => self.direct(&vertex, sampler, seen),
                 Some(lights) => {
-                    let (scene, settings) = (self.scene, self.settings);
-                    let value = direct::each(scene, settings, &vertex, lights, &self.weight, self.w, sampler);
+                    let value = vertex.each(&self.arrival(), lights, sampler);
                     self.each = lights.1;
                     self.counted(self.depth, value, seen)
                 }
@@ -164,6 +163,12 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.survives(sampler)
     }
 
+    /// The path as light sampling knows it.
+    #[inline(always)]
+    fn arrival(&self) -> Arrival<'_, N> {
+        Arrival { scene: self.scene, settings: self.settings, weight: &self.weight, w: self.w }
+    }
+
     /// What light sampling brings at a vertex.
     #[inline(always)]
     pub(super) fn direct<S, F>(
@@ -176,7 +181,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         S: Fn(Vec3) -> (Vec3, MediumId),
         F: Fn(Vec3) -> (Spectrum<N>, Spectrum<N>),
     {
-        let value = direct::sample(self.scene, self.settings, vertex, &self.weight, self.w, sampler);
+        let value = vertex.sample(&self.arrival(), sampler);
         self.counted(self.depth, value, seen)
     }
 
