@@ -4,7 +4,7 @@
 //! With D the distance of the light point from the ray and s the ray parameter of the nearest point,
 //! `t = s + D tan((1 - u) a + u b)`, `p(t) = D / ((b - a)(D^2 + (t - s)^2))`.
 //!
-//! The sample shares its path space with two others, which the balance heuristic weighs in every lane: a free flight
+//! The sample shares its path space with two others, each with the density of every lane as hero: a free flight
 //! followed by light sampling, and a free flight followed by a scattering that happens to meet the light.
 
 use crate::{

@@ -1,8 +1,8 @@
 //! `volpath`: path tracing through surfaces and media with spectral multiple importance sampling.
 //!
 //! Distances are drawn from the hero's transmittance, collisions carry the albedo as a weight, shadow rays the exact
-//! transmittance; lights are met by chance, by light sampling and by equiangular sampling, combined by the balance
-//! heuristic over techniques and wavelengths at once (see [`crate::weight`]). Media that vary in space are crossed by
+//! transmittance; lights are met by chance, by light sampling and by equiangular sampling, combined by the power
+//! heuristic over techniques and the balance heuristic over wavelengths (see [`crate::weight`]). Media that vary in space are crossed by
 //! null collisions (see [`crate::tracking`]).
 
 mod ahead;

@@ -7,6 +7,8 @@
 //! beta_k L_k / mean_j( sum over techniques of r_j ),   beta_k = f_k / p_hero,   r_j = p_j / p_hero
 //! ```
 //!
+//! or what other heuristics over techniques make of the `mean_j(r_j)` of each ([`Heuristic`]).
+//!
 //! where `f_k` is the path's contribution at wavelength k and `p_j` the density with which wavelength j would have
 //! drawn the same path. `r_u` belongs to the path as it was drawn (emitters met by chance); `r_l` to the same path
 //! whose last vertex was chosen on a light; `r_e` to the path whose last two vertices were chosen by equiangular
