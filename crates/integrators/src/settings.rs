@@ -41,7 +41,7 @@ pub struct Settings {
     /// twice.
     pub each_light: bool,
     /// Combine light sampling, chance hits and equiangular samples by the power heuristic; in media that vary by densities, with
-    /// less trust in light sampling. Off: by the balance heuristic.
+    /// less trust in light sampling. Off: by the balance heuristic, as points of media that emit always are.
     pub power: bool,
     /// `exp(-sigma_t d)` on shadow rays; off: a free flight along the shadow ray that passes or does not.
     pub exact_transmittance: bool,
@@ -62,7 +62,7 @@ pub struct Settings {
     pub guiding: Guiding,
     /// Paths of neighbouring pixels go on from each other's second scattering.
     pub reuse: bool,
-    /// Pixels at the rim of a lamp, or around a point of light in a medium, take the lowest orders of light from more paths.
+    /// Pixels at the rim of a lamp, around a point of light in a medium, or with a lamp in a rough mirror, take the lowest orders of light from more paths.
     pub refine: bool,
     /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
     pub roulette_depth: u32,

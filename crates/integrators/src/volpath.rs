@@ -69,7 +69,7 @@ pub fn li_from<const N: usize>(
 
 /// The state of a path.
 pub(crate) struct Walk<'s, const N: usize> {
-    scene: &'s Scene,
+    pub scene: &'s Scene,
     settings: &'s Settings,
     w: &'s Wavelengths<N>,
     pub ray: Ray,

@@ -7,12 +7,10 @@
 //! beta_k L_k / mean_j( sum over techniques of r_j ),   beta_k = f_k / p_hero,   r_j = p_j / p_hero
 //! ```
 //!
-//! or what other heuristics over techniques make of the `mean_j(r_j)` of each ([`Heuristic`]).
-//!
 //! where `f_k` is the path's contribution at wavelength k and `p_j` the density with which wavelength j would have
 //! drawn the same path. `r_u` belongs to the path as it was drawn (emitters met by chance); `r_l` to the same path
 //! whose last vertex was chosen on a light; `r_e` to the path whose last two vertices were chosen by equiangular
-//! sampling. All are zero-safe: a lane that cannot be drawn has `r = 0`, and a path that no lane can draw is dead.
+//! sampling. Other heuristics over techniques divide by something else made of the `mean_j(r_j)` of each ([`Heuristic`]). All are zero-safe: a lane that cannot be drawn has `r = 0`, and a path that no lane can draw is dead.
 
 use crate::{medium::Inside, settings::Settings};
 use tyndall_spectral::Spectrum;
@@ -218,11 +216,15 @@ mod tests {
     fn parts_of_all_techniques_add_up() {
         let techniques = [Spectrum([3.0, 1.0]), Spectrum([0.5, 0.1]), Spectrum([0.0, 7.0])];
         let value = Spectrum([2.0, 5.0]);
-        for heuristic in [Heuristic::Balance, Heuristic::Power] {
+        // the second is light sampling
+        for heuristic in [Heuristic::Balance, Heuristic::Power, Heuristic::Tracked] {
+            let trust = [1.0, heuristic.trust(), 1.0];
+            let counts = |i: usize| techniques[i] * trust[i];
             let mut sum = Spectrum::ZERO;
             for own in 0..3 {
-                let [a, b] = [1, 2].map(|k| techniques[(own + k) % 3]);
-                sum += combine(heuristic, value, techniques[own], [a, b]) * techniques[own].mean();
+                let others = [1, 2].map(|k| counts((own + k) % 3));
+                let brings = combine(heuristic, value * trust[own], counts(own), others);
+                sum += brings * techniques[own].mean();
             }
             assert!((sum[0] / 2.0 - 1.0).abs() < 1e-6 && (sum[1] / 5.0 - 1.0).abs() < 1e-6, "{sum:?}");
         }

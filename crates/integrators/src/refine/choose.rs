@@ -18,7 +18,7 @@ use tyndall_transport::{
 
 /// The stream of numbers of the paths that measure, the same for all seeds.
 pub(super) const SEED: u64 = 0x7269_6d73;
-/// Paths that measure, all pixels together, at least; they are short.
+/// Paths that measure, all pixels of lamps together, and as many for all with highlights, at least; they are short.
 const PATHS: u64 = 16_384;
 /// And this many times fewer than there are pixels, where that is more; but no more than this.
 const PIXELS_PER_PATH: u64 = 8;
@@ -51,13 +51,19 @@ impl PixelPass {
         let pixels = u64::from(self.resolution[0]) * u64::from(self.resolution[1]);
         let (room, budget) = (pixels / SHARE, (pixels / PIXELS_PER_PATH).clamp(PATHS, MOST_PATHS));
         let rims = self.candidates(room.min(budget / FEW));
+        if rims.is_empty() && !self.may_have_highlights() {
+            return Refinement::default();
+        }
         let pilot = pilot();
         let highlights = self.highlights(room.min(budget / SOME), &pilot);
         let each = (budget / (rims.len() as u64).max(1)).min(MANY) as u32;
-        // a pixel may be both: then it is looked at as what varies more
         let mut candidates: BTreeMap<_, _> =
             highlights.into_iter().map(|at| (at, (2, SOME as u32))).collect();
-        candidates.extend(rims.into_iter().map(|(at, from)| (at, (from, each))));
+        for (at, from) in rims {
+            // a pixel may be both
+            let entry = candidates.entry(at).or_insert((from, each));
+            *entry = (entry.0.max(from), entry.1.max(each));
+        }
         let usual = USUAL * pilot.scattered.powi(2);
         let varying = candidates.into_iter().filter_map(|(at, (from, each))| {
             let variance = self.variance(at, from, each);

@@ -22,10 +22,10 @@ impl PixelPass {
     /// picture's mean: the brightest first, up to `most`.
     pub(super) fn highlights(&self, most: u64, pilot: &Pilot) -> Vec<[u32; 2]> {
         let [columns, rows] = self.resolution;
-        let side = (1..).find(|&s| squares(columns, s) * squares(rows, s) <= LOOKS).unwrap_or(u32::MAX);
-        if self.settings.max_depth < 1 || self.scene.materials.iter().all(Material::is_matte) {
+        if !self.may_have_highlights() {
             return Vec::new();
         }
+        let side = (1..).find(|&s| squares(columns, s) * squares(rows, s) <= LOOKS).unwrap_or(u32::MAX);
         let settings = Settings { max_depth: 1, ..self.settings.clone() };
         let mut bright = Vec::new();
         for y in (0..rows).step_by(side as usize) {
@@ -52,6 +52,11 @@ impl PixelPass {
             range(y, rows).flat_map(move |y| range(x, columns).map(move |x| [y, x]))
         });
         pixels.collect()
+    }
+
+    /// Whether anything in the scene could have one.
+    pub(super) fn may_have_highlights(&self) -> bool {
+        self.settings.max_depth >= 1 && !self.scene.materials.iter().all(Material::is_matte)
     }
 
     /// Whether the surface that `ray` meets spreads reflected light, but not evenly.

@@ -48,7 +48,7 @@ impl<'a, const N: usize> Company<'a, N> {
     /// own.
     #[inline(always)]
     pub fn deal_from(
-        &self,
+        &mut self,
         at: &Site<'_, N>,
         l: Spectrum<N>,
         w: &Wavelengths<N>,
@@ -68,16 +68,21 @@ impl<'a, const N: usize> Company<'a, N> {
     /// Parts of `l`, which came from `wi`.
     #[inline(always)]
     fn deal_towards(
-        &self,
+        &mut self,
         at: &impl Scatters<N>,
         wi: Vec3,
         l: Spectrum<N>,
         w: &Wavelengths<N>,
         give: &mut impl FnMut(usize, Spectrum<N>),
     ) {
-        let l = l.safe_div(self.sums(at, wi, w).0);
+        let mut all = Spectrum::ZERO;
+        for (_, link) in self.links.iter_mut() {
+            link.sent = link.through * at.eval_from(link.wo, wi, w).0;
+            all += link.sent;
+        }
+        let l = l.safe_div(all);
         for (i, link) in self.links.iter() {
-            give(*i, l * link.through * at.eval_from(link.wo, wi, w).0);
+            give(*i, l * link.sent);
         }
     }
 

@@ -15,7 +15,7 @@ use tyndall_scatter::{
     phase::PhaseFunction,
 };
 use tyndall_spectral::{Spectrum, Wavelengths};
-use tyndall_transport::{MediumId, Scene, light::Target, sampler::PathSampler};
+use tyndall_transport::{MediumId, Scene, light::Target, media::Medium, sampler::PathSampler};
 
 /// Media whose phase functions are narrower send too little to the points of others.
 const LEAST_OPEN: f32 = 0.1;
@@ -36,7 +36,16 @@ fn roughness<const N: usize>(bsdf: &Bsdf<'_, N>) -> f32 {
 }
 
 impl<const N: usize> Site<'_, N> {
-    /// Whether paths of others may begin here: what scatters leaves all directions open.
+    /// The medium that the path came through.
+    #[inline(always)]
+    fn medium(&self) -> MediumId {
+        match self {
+            Self::Medium(at) => at.medium,
+            Self::Surface(at) => at.medium,
+        }
+    }
+
+    /// Whether paths of others may begin here: what scatters spreads directions enough.
     #[inline(always)]
     pub fn may_begin(&self, w: &Wavelengths<N>) -> bool {
         match self {
@@ -153,12 +162,18 @@ pub(super) struct Link<const N: usize> {
     pub density: Spectrum<N>,
     /// Unit direction from `y_k` to `x_i`.
     pub wo: Vec3,
+    /// What of `through` goes on in the direction that is dealt with.
+    pub sent: Spectrum<N>,
 }
 
 impl<'s, const N: usize> Shared<'s, N> {
     /// The site that `walk` reached from `from`, if others may go on from it.
     #[inline(always)]
     pub fn new(walk: &Walk<'_, N>, from: &Origin<'_, N>, at: &Site<'s, N>) -> Option<Self> {
+        // what lies behind depends on where the path entered, which is another point for each
+        if matches!(walk.scene.medium(at.medium()), Some(Medium::Painted(_))) {
+            return None;
+        }
         let mut shared = match at {
             Site::Medium(at) => {
                 if openness(at.inside.phase, walk.w()) < LEAST_OPEN {
@@ -209,7 +224,7 @@ impl<'s, const N: usize> Shared<'s, N> {
     #[inline(always)]
     pub fn own_link(&self, walk: &Walk<'_, N>) -> Link<N> {
         let (through, density) = (walk.weight.beta * self.own, walk.weight.r_u * self.own);
-        Link { through, density, wo: -walk.ray.d }
+        Link { through, density, wo: -walk.ray.d, sent: Spectrum::ZERO }
     }
 
     /// The point as aimed at from `from`; `None` where nothing scatters to it.
@@ -246,7 +261,8 @@ impl<'s, const N: usize> Shared<'s, N> {
         if through.is_zero() {
             return None;
         }
-        Some(Link { through, density: aim.pdf * passed.r_u * self.density, wo: -aim.wi })
+        let density = aim.pdf * passed.r_u * self.density;
+        Some(Link { through, density, wo: -aim.wi, sent: Spectrum::ZERO })
     }
 }
 

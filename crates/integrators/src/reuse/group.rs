@@ -71,6 +71,8 @@ impl PixelPass {
         let mut common = PathSampler::of_group(kind, self.seed, x0, y0, sample, self.replicates);
         let (u, time) = (common.next_1d(), common.next_1d());
         let w = self.wavelengths.sample::<N>(u);
+        // densities at a shared point are those of all members: they must have the same lamp
+        let lamp = glow::lamp(&self.scene, &self.settings, &mut common);
         let takes = |(x, y)| guide.samples_for(x, y, &unit.samples).contains(&sample);
         let pixels =
             |k| Some(pixel_of(square, (deal, grouping), k, group)).filter(|&(x, y)| square.contains(x, y));
@@ -91,7 +93,7 @@ impl PixelPass {
                     sample,
                     self.replicates,
                 );
-                let member = members[k].insert(self.set_out((x, y), sampler, (u, time), &w));
+                let member = members[k].insert(self.set_out((x, y), sampler, (u, time, lamp), &w));
                 origins[k] = member.reach_second(number, &w);
             }
         }
@@ -124,15 +126,15 @@ impl PixelPass {
         &'s self,
         pixel: (u32, u32),
         sampler: PathSampler,
-        (u, time): (f32, f32),
+        (u, time, lamp): (f32, f32, Option<Vec3>),
         w: &'s Wavelengths<N>,
     ) -> Member<'s, N> {
         let (scene, settings) = (&*self.scene, &self.settings);
-        let Begin { ray, exposure, filter, spectrum, mut sampler } =
+        let Begin { ray, exposure, filter, spectrum, sampler } =
             self.begin(pixel.0, pixel.1, sampler, Some(time));
         let start = (PathWeight::START, scene.camera_medium);
         let mut walk = Walk::new(scene, settings, start, ray, spectrum.y, w);
-        walk.lamp = glow::lamp(scene, settings, &mut sampler);
+        walk.lamp = lamp;
         walk.pilot = lane_of::<N>(spectrum.x, u);
         walk.anew = true;
         walk.from = self.refinement.of(pixel.0, pixel.1).from;
@@ -165,7 +167,7 @@ impl PixelPass {
         if goes_on {
             walk.follow(site, u32::MAX, sampler, &mut ());
         }
-        match (&company, &sends) {
+        match (&mut company, &sends) {
             (None, _) => all[k] += walk.l,
             (Some((company, _)), None) => company.deal(walk.l, |i, part| all[i] += part),
             (Some((company, _)), Some(at)) => company.deal_from(at, walk.l, w, |i, part| all[i] += part),

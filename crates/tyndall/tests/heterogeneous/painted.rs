@@ -1,7 +1,8 @@
 //! Bodies whose coefficients are textures of their boundary.
 
-use super::common::{Run, judge::Family, scene};
+use super::common::{Run, develop, judge::Family, scene};
 use super::media::{self, BANDS};
+use tyndall_film::PixelBounds;
 
 const LEFT: [&str; 4] = [
     "[300 0.2 600 0.1 900 1.5]",
@@ -89,4 +90,26 @@ fn analog_judges_painted_bodies() {
         family.equal(&format!("{name}, opow"), &Run::new(BANDS, 2048).opow().bands(&text), &judge);
     }
     family.assert(0.05);
+}
+
+/// Left and right of the seam apart: a shared point inside would have the coefficients of one for both.
+#[test]
+fn textures_do_not_bleed_where_paths_are_shared() {
+    let (textures, both) = painted(COEFFICIENTS, LEFT, RIGHT, " \"float roughness\" 0.3");
+    let text = plate(&textures, &both, 0.0, 0.5);
+    let mut plans = [1, 2].map(|seed| Run::new(BANDS, 4096).seed(seed).plan(&text));
+    assert!(plans[0].pass.shares_paths());
+    plans[1].pass.settings.reuse = false;
+    let [shared, alone] = plans.map(|plan| develop(&plan));
+    let all = shared.bounds;
+    let middle = all.x0 + all.width() / 2;
+    let halves = [PixelBounds { x1: middle, ..all }, PixelBounds { x0: middle, ..all }];
+    for (half, name) in halves.into_iter().zip(["left", "right"]) {
+        for channel in 0..shared.names.len() {
+            let [a, b] = [&shared, &alone].map(|film| film.mean_over(channel, half));
+            let error = (a.1.variance + b.1.variance).sqrt();
+            assert!(error < 0.02 * b.0, "{name}, {channel}: too coarse to tell: {} +- {error}", b.0);
+            assert!((a.0 - b.0).abs() < 5.0 * error, "{name}, {channel}: {} and {} +- {error}", a.0, b.0);
+        }
+    }
 }
