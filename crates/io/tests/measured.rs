@@ -48,7 +48,7 @@ fn load(fields: &[Field]) -> Result<LoadedScene, String> {
     let path = folder.path().join("grey.bsdf");
     std::fs::write(&path, tensor(fields)).unwrap();
     let material = format!("Material \"measured\" \"string filename\" \"{}\"", path.display());
-    let text = format!("WorldBegin\nLightSource \"point\"\n{material}\nShape \"disk\"\n");
+    let text = format!("WorldBegin\n{material}\nShape \"disk\"\n");
     load_text("test", &text, Path::new(""), &LoadOptions::default()).map_err(|e| e.to_string())
 }
 

@@ -66,13 +66,17 @@ pub fn load(source: Source<'_>, options: &Options) -> Result<LoadedScene, Error>
         dispatch: options.dispatch,
         set: options.set.clone(),
     };
-    Ok(match source {
+    let loaded = match source {
         Source::BuiltIn => {
             load_text(&format!("{BUILT_IN_NAME}.pbrt (built in)"), BUILT_IN, Path::new(""), &load)?
         }
         Source::File(path) => load_file(path, &load)?,
         Source::Text(name, text, dir) => load_text(name, text, dir, &load)?,
-    })
+    };
+    if loaded.scene.emitters().is_empty() {
+        loaded.diagnostics.warn_without_place("nothing in the scene gives light: the picture will be black");
+    }
+    Ok(loaded)
 }
 
 /// Loads the scene and plans the job.

@@ -224,9 +224,6 @@ pub fn build(
         camera,
         camera_medium,
     };
-    if scene.emitters().is_empty() {
-        ctx.warnings.warn_without_place("nothing in the scene gives light: the picture will be black");
-    }
     Ok(LoadedScene {
         scene,
         film,

@@ -105,10 +105,11 @@ fn textures_do_not_bleed_where_paths_are_shared() {
     let middle = all.x0 + all.width() / 2;
     let halves = [PixelBounds { x1: middle, ..all }, PixelBounds { x0: middle, ..all }];
     for (half, name) in halves.into_iter().zip(["left", "right"]) {
-        for channel in 0..shared.names.len() {
+        // the bands, behind R, G, B
+        for channel in 3..shared.names.len() {
             let [a, b] = [&shared, &alone].map(|film| film.mean_over(channel, half));
             let error = (a.1.variance + b.1.variance).sqrt();
-            assert!(error < 0.02 * b.0, "{name}, {channel}: too coarse to tell: {} +- {error}", b.0);
+            assert!(error < 0.03 * b.0, "{name}, {channel}: too coarse to tell: {} +- {error}", b.0);
             assert!((a.0 - b.0).abs() < 5.0 * error, "{name}, {channel}: {} and {} +- {error}", a.0, b.0);
         }
     }
