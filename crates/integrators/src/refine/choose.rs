@@ -38,7 +38,7 @@ const USUAL: f32 = 0.1;
 const MOST: u32 = 1024;
 /// All of them together are this many times fewer than the pixels, at least; a path for light that is scattered once counts
 /// for three.
-const SHARE: u64 = 4;
+const SHARE: u64 = 2;
 /// Pixels around that of a point of light.
 const AROUND: f32 = 1.0;
 
