@@ -5,7 +5,7 @@ use crate::{
     medium::Inside,
     settings::Settings,
     shadow::{End, Place, Shadow, shadow},
-    weight::{Heuristic, PathWeight, combine},
+    weight::{PathWeight, combine},
 };
 use tyndall_base::Vec3;
 use tyndall_geometry::SurfacePoint;
@@ -155,7 +155,7 @@ where
         if let (Some(division), Some(target)) = (&self.division, &sample.target) {
             l *= division.of_flights(light, (target.p - self.p).length());
         }
-        let heuristic = Heuristic::at(settings, self.known.inside);
+        let heuristic = Inside::heuristic(self.known.inside, settings);
         let (trust, others) = (heuristic.trust(), [weight.r_u * by_chance, by_rival]);
         combine(heuristic, weight.beta * f * s.t * l * trust, weight.r_u * by_light * trust, others)
     }

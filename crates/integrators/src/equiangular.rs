@@ -12,7 +12,7 @@ use crate::{
     settings::{Equiangular, Settings},
     shadow::{End, Place, shadow},
     steer::{Steering, mixed},
-    weight::{Heuristic, PathWeight, combine, divide},
+    weight::{PathWeight, combine, divide},
 };
 use tyndall_base::{Vec3, warp};
 use tyndall_geometry::Ray;
@@ -347,7 +347,7 @@ fn connect<const N: usize>(
         if light.is_hidden() { Spectrum::ZERO } else { mixed(steering.as_ref(), phase, wi) * s.r_u };
     let flown = if at.anew { Spectrum::splat((weight.r_u * flight).mean()) } else { weight.r_u * flight };
     let own = weight.r_u * s.r_l * technique;
-    let heuristic = Heuristic::at(settings, Some(inside));
+    let heuristic = Inside::heuristic(Some(inside), settings);
     let others = [flown * s.r_l * by_light, flown * by_chance];
     Some(combine(heuristic, weight.beta * f * s.t * l, own, others))
 }

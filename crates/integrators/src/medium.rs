@@ -1,6 +1,9 @@
 //! The medium a path is in; free flight and transmittance at the path's wavelengths where it is homogeneous.
 
-use crate::{settings::Settings, weight::exp};
+use crate::{
+    settings::Settings,
+    weight::{Heuristic, exp},
+};
 use tyndall_geometry::SurfacePoint;
 use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
@@ -28,6 +31,17 @@ pub struct Inside<'s, const N: usize> {
 }
 
 impl<'s, const N: usize> Inside<'s, N> {
+    /// How techniques are combined at a vertex that lies in, or was reached through, `inside`: all of them agree on it.
+    #[inline(always)]
+    pub fn heuristic(inside: Option<&Self>, settings: &Settings) -> Heuristic {
+        let tracked = inside.is_some_and(|inside| inside.varying.is_some());
+        match settings.power {
+            true if tracked => Heuristic::Tracked,
+            true => Heuristic::Power,
+            false => Heuristic::Balance,
+        }
+    }
+
     /// The medium `id` at the wavelengths `w` for a path that begins in it; `None` in vacuum.
     #[inline(always)]
     pub fn of(scene: &'s Scene, id: MediumId, w: &Wavelengths<N>) -> Option<Self> {

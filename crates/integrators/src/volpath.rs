@@ -2,8 +2,8 @@
 //!
 //! Distances are drawn from the hero's transmittance, collisions carry the albedo as a weight, shadow rays the exact
 //! transmittance; lights are met by chance, by light sampling and by equiangular sampling, combined by the power
-//! heuristic over techniques and the balance heuristic over wavelengths (see [`crate::weight`]). Media that vary in space are crossed by
-//! null collisions (see [`crate::tracking`]).
+//! heuristic over techniques and the balance heuristic over wavelengths (see [`crate::weight`]). Media that vary in space
+//! are crossed by null collisions (see [`crate::tracking`]).
 
 mod ahead;
 mod division;
@@ -399,7 +399,7 @@ impl<'s, const N: usize> Walk<'s, N> {
     #[inline(always)]
     fn at(&mut self, p: Vec3, n: Vec3) {
         (self.previous, self.facing, self.each) = (p, n, 0);
-        self.heuristic = Heuristic::at(self.settings, self.inside.as_ref());
+        self.heuristic = Inside::heuristic(self.inside.as_ref(), self.settings);
     }
 
     /// Samples of the light `id` that the last scattering took, on average.

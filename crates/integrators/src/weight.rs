@@ -10,9 +10,9 @@
 //! where `f_k` is the path's contribution at wavelength k and `p_j` the density with which wavelength j would have
 //! drawn the same path. `r_u` belongs to the path as it was drawn (emitters met by chance); `r_l` to the same path
 //! whose last vertex was chosen on a light; `r_e` to the path whose last two vertices were chosen by equiangular
-//! sampling. Other heuristics over techniques divide by something else made of the `mean_j(r_j)` of each ([`Heuristic`]). All are zero-safe: a lane that cannot be drawn has `r = 0`, and a path that no lane can draw is dead.
+//! sampling. Other heuristics over techniques divide by something else made of the `mean_j(r_j)` of each ([`Heuristic`]).
+//! All are zero-safe: a lane that cannot be drawn has `r = 0`, and a path that no lane can draw is dead.
 
-use crate::{medium::Inside, settings::Settings};
 use tyndall_spectral::Spectrum;
 
 /// Exponents beyond this are cut, so that no product leaves the range of f32.
@@ -143,17 +143,6 @@ pub enum Heuristic {
 }
 
 impl Heuristic {
-    /// At a vertex that lies in, or was reached through, `inside`. All techniques at a vertex agree on it.
-    #[inline(always)]
-    pub fn at<const N: usize>(settings: &Settings, inside: Option<&Inside<'_, N>>) -> Self {
-        let tracked = inside.is_some_and(|inside| inside.varying.is_some());
-        match settings.power {
-            true if tracked => Self::Tracked,
-            true => Self::Power,
-            false => Self::Balance,
-        }
-    }
-
     /// What the density of light sampling is multiplied by, wherever it enters a weight.
     #[inline(always)]
     pub fn trust(self) -> f32 {

@@ -10,9 +10,10 @@
 //!
 //! per lane, with `l` running over the path's wavelengths as heroes. `F` holds what scatters, the geometry and the
 //! transmittance; `p_l(y | x)` is the density of `y`, per volume or area, of a path that scatters at `x` and is led by lane
-//! l; zero where that path would have no throughput left, for then it ends. The denominator does not depend on the pixel, so that a path simply starts anew at `y_k` with the density
-//! `sum_m p_l(y_k | x_m)`, and what it brings is dealt out in proportion to `beta_i F(x_i, y_k)`. Where `y_k` does not scatter alike
-//! for all, what goes on to `wi` has the density `sum_m p_l(y_k | x_m) p_l(wi | x_m)` and is dealt out by `beta_i F(x_i, y_k) f(wi | x_i)`.
+//! l; zero where that path would have no throughput left, for then it ends. The denominator does not depend on the pixel, so
+//! that a path simply starts anew at `y_k` with the density `sum_m p_l(y_k | x_m)`, and what it brings is dealt out in
+//! proportion to `beta_i F(x_i, y_k)`. Where `y_k` does not scatter alike for all, what goes on to `wi` has the density
+//! `sum_m p_l(y_k | x_m) p_l(wi | x_m)` and is dealt out by `beta_i F(x_i, y_k) f(wi | x_i)`.
 //!
 //! The paths of a group share their wavelengths and their time. Distances to `x_i` are led by a lane that is drawn for
 //! itself (`pilot` in `volpath`), so that where the points lie does not depend on the hero of what follows;
