@@ -2,11 +2,14 @@
 
 use super::{
     Cloud, Dense,
+    coarse::Coarse,
     density::{Bricks, Extrema},
+    length,
     majorant::Majorants,
     model::{MediumModel, Mixed, Point, RgbGrid, Separable, SpectralGrid},
 };
 use crate::{TransportError, error::check};
+use std::sync::OnceLock;
 use tyndall_base::Vec3;
 use tyndall_geometry::{Bounds3, Ray, Transform};
 use tyndall_spectral::{Emission, LambdaRange, Spectrum, Wavelengths};
@@ -64,6 +67,8 @@ pub struct Heterogeneous {
     model: Model,
     majorants: Majorants,
     range: LambdaRange,
+    measurable: bool,
+    coarse: OnceLock<Coarse>,
 }
 
 impl Heterogeneous {
@@ -84,7 +89,25 @@ impl Heterogeneous {
             let thickness = m.thickness(range) * unit;
             Majorants::new(m.bounds(), m.cells(), thickness, majorant_scale, |b| m.extrema(b))
         });
-        Ok(Self { to_world, to_grid: to_world.inverse(), unit, model, majorants, range })
+        let measurable = length::is_measurable(&model, &majorants);
+        let coarse = OnceLock::new();
+        Ok(Self { to_world, to_grid: to_world.inverse(), unit, model, majorants, range, measurable, coarse })
+    }
+
+    /// Whether [`Self::follow`] serves: a grid of densities that does not emit.
+    #[inline(always)]
+    pub fn is_measurable(&self) -> bool {
+        self.measurable
+    }
+
+    /// Coarse means of the density of a medium that is measurable.
+    #[inline(always)]
+    pub(super) fn coarse(&self) -> &Coarse {
+        self.coarse.get_or_init(|| match &self.model {
+            Model::Dense(m) => Coarse::new(&self.majorants, &m.density),
+            Model::Sparse(m) => Coarse::new(&self.majorants, &m.density),
+            _ => unreachable!("the medium is not measurable"),
+        })
     }
 
     /// The kind of medium.
@@ -184,6 +207,11 @@ impl Heterogeneous {
             }
             tau
         })
+    }
+
+    /// The bounds of the density.
+    pub(super) fn majorants(&self) -> &Majorants {
+        &self.majorants
     }
 
     /// Length in the world over which the medium varies.

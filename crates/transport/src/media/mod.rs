@@ -1,9 +1,11 @@
 //! Participating media: coefficients \[1/m\] per wavelength, emission and phase function.
 
+mod coarse;
 pub mod density;
 pub mod emission;
 mod heterogeneous;
 mod homogeneous;
+mod length;
 pub mod majorant;
 pub mod model;
 mod painted;

@@ -3,7 +3,7 @@
 //! The grid's space is that of voxel indices: a voxel's value stands at its integer coordinates and is interpolated
 //! linearly between them. The bounds run from the first active voxel to one beyond the last, as pbrt-v4 has them.
 
-use super::{Density, Extrema, split, trilinear};
+use super::{Cellwise, Density, Extrema, split, trilinear};
 use crate::{TransportError, error::check, media::majorant::Cells};
 use tyndall_base::{Vec3, vec::vec3};
 use tyndall_geometry::Bounds3;
@@ -192,19 +192,19 @@ fn voxel_of(v: [i32; 3]) -> usize {
     (c[0] << 6) | (c[1] << 3) | c[2]
 }
 
-impl Density for Bricks {
+impl Cellwise for Bricks {
+    const PLANE: f32 = 0.0;
+
     #[inline(always)]
-    fn at(&self, p: Vec3) -> f32 {
-        let ((x, dx), (y, dy), (z, dz)) = (split(p.x), split(p.y), split(p.z));
-        let d = [dx, dy, dz];
+    fn cell(&self, [x, y, z]: [i32; 3]) -> [f32; 8] {
         if x & 7 < 7 && y & 7 < 7 && z & 7 < 7 {
             // all eight corners in one brick
             return match self.find([x, y, z]) {
-                Err(constant) => constant,
+                Err(constant) => [constant; 8],
                 Ok(brick) => {
                     let i = brick * VOXELS + voxel_of([x, y, z]);
                     let v = &self.bricks[i..i + 74];
-                    trilinear([v[0], v[64], v[8], v[72], v[1], v[65], v[9], v[73]], d)
+                    [v[0], v[64], v[8], v[72], v[1], v[65], v[9], v[73]]
                 }
             };
         }
@@ -213,7 +213,15 @@ impl Density for Bricks {
             let i = i as i32;
             *c = self.voxel([x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)]);
         }
-        trilinear(corners, d)
+        corners
+    }
+}
+
+impl Density for Bricks {
+    #[inline(always)]
+    fn at(&self, p: Vec3) -> f32 {
+        let ((x, dx), (y, dy), (z, dz)) = (split(p.x), split(p.y), split(p.z));
+        trilinear(self.cell([x, y, z]), [dx, dy, dz])
     }
 
     fn extrema(&self, b: Bounds3) -> Extrema {

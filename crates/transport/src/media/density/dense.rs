@@ -3,7 +3,7 @@
 //! The grid's space has voxels of edge 1 from 0 to n. Beyond the outermost centres pbrt-v4's grids fade to zero over half
 //! a voxel ([`Edge::Fade`]): at the border they have half their value. [`Edge::Clamp`] holds the outermost values.
 
-use super::{Density, Extrema, bounds_of, cells_of, reach, split, trilinear};
+use super::{Cellwise, Density, Extrema, bounds_of, cells_of, reach, split, trilinear};
 use crate::{TransportError, error::check, media::majorant::Cells};
 use tyndall_base::Vec3;
 use tyndall_geometry::Bounds3;
@@ -62,21 +62,34 @@ impl Dense {
     }
 }
 
-impl Density for Dense {
+impl Dense {
+    /// The values around the cell number `cell`, which begins half a voxel before the voxel of that number.
     #[inline(always)]
-    fn at(&self, p: Vec3) -> f32 {
+    fn around(&self, cell: [i32; 3]) -> [f32; 8] {
         let [nx, ny, nz] = self.dims;
-        let axis = |x: f32, n: usize| {
-            let (i, d) = split(x + 0.5);
-            (i.clamp(0, n as i32) as usize, d)
-        };
-        let ((x, dx), (y, dy), (z, dz)) = (axis(p.x, nx), axis(p.y, ny), axis(p.z, nz));
+        let axis = |i: i32, n: usize| i.clamp(0, n as i32) as usize;
+        let (x, y, z) = (axis(cell[0], nx), axis(cell[1], ny), axis(cell[2], nz));
         let (row, layer) = (nx + 2, (nx + 2) * (ny + 2));
         let i = z * layer + y * row + x;
         let v = &self.values[i..i + layer + row + 2];
-        let corners =
-            [v[0], v[1], v[row], v[row + 1], v[layer], v[layer + 1], v[layer + row], v[layer + row + 1]];
-        trilinear(corners, [dx, dy, dz])
+        [v[0], v[1], v[row], v[row + 1], v[layer], v[layer + 1], v[layer + row], v[layer + row + 1]]
+    }
+}
+
+impl Cellwise for Dense {
+    const PLANE: f32 = -0.5;
+
+    #[inline(always)]
+    fn cell(&self, cell: [i32; 3]) -> [f32; 8] {
+        self.around(cell)
+    }
+}
+
+impl Density for Dense {
+    #[inline(always)]
+    fn at(&self, p: Vec3) -> f32 {
+        let ((x, dx), (y, dy), (z, dz)) = (split(p.x + 0.5), split(p.y + 0.5), split(p.z + 0.5));
+        trilinear(self.around([x, y, z]), [dx, dy, dz])
     }
 
     fn extrema(&self, b: Bounds3) -> Extrema {

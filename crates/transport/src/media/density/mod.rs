@@ -54,6 +54,14 @@ pub trait Density: Send + Sync + std::fmt::Debug {
     fn detail(&self) -> f32;
 }
 
+/// A density that is trilinear between planes one unit apart along each axis.
+pub trait Cellwise: Density {
+    /// Where the planes lie: at this plus whole numbers.
+    const PLANE: f32;
+    /// The values at the corners of the cell from `PLANE + cell` on, x fastest; of a cell in the bounds.
+    fn cell(&self, cell: [i32; 3]) -> [f32; 8];
+}
+
 /// Index below `x` and how far beyond it `x` lies.
 #[inline(always)]
 pub(crate) fn split(x: f32) -> (i32, f32) {
