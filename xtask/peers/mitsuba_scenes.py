@@ -31,7 +31,7 @@ ARGUMENTS.add_argument("--seeds", type=int, default=8)
 ARGUMENTS.add_argument("--samplers", nargs="+", default=["independent", "multijitter"])
 ARGUMENTS.add_argument("--first-pixel", action="store_true")
 BOXES = ["fog-box", "empty-box", "dark-fog", "cloud-box", "small-lamp", "beam"]
-SCENES = [*BOXES, "cloud-grid", "room", "plates", "terrain"]
+SCENES = [*BOXES, "cloud-grid", "smoke", "room", "plates", "terrain"]
 ARGUMENTS.add_argument("--scenes", nargs="+", choices=SCENES, default=SCENES)
 A = ARGUMENTS.parse_args()
 mi.set_variant(A.variant)
@@ -60,6 +60,8 @@ MEDIA = {
     "beam": MIST,
 }
 CLOUD_ALBEDO = [(360, 0.99), (500, 0.99), (560, 0.97), (620, 0.85), (700, 0.75), (830, 0.7)]
+
+SMOKE_ALBEDO = [(360, 0.5), (500, 0.65), (600, 0.8), (830, 0.85)]
 
 GRID = np.arange(360.0, 831.0, 5.0)
 
@@ -177,21 +179,33 @@ def outdoors():
     }
 
 
-def cloud_grid():
-    density = np.fromfile(FILES / "cloud-grid.f32", dtype="<f4").reshape(64, 64, 64, 1)
+def grid(name, side, sigma_t, albedo, g, low, high):
+    """A box of densities."""
+    density = np.fromfile(FILES / f"{name}.f32", dtype="<f4").reshape(side, side, side, 1)
+    low, high = np.array(low), np.array(high)
+    half = (high - low) / 2
     medium = {
-        "type": "heterogeneous", "scale": 12.0, "has_spectral_extinction": False,
+        "type": "heterogeneous", "scale": sigma_t, "has_spectral_extinction": False,
         "sigma_t": {
             "type": "gridvolume", "grid": mi.VolumeGrid(np.ascontiguousarray(density)), "wrap_mode": "clamp",
-            "to_world": T().translate([-0.75] * 3).scale(1.5),
+            "to_world": T().translate(low.tolist()).scale((high - low).tolist()),
         },
-        "albedo": curve(CLOUD_ALBEDO), "phase": {"type": "hg", "g": 0.6},
+        "albedo": curve(albedo), "phase": {"type": "hg", "g": g},
     }
+    place = T().translate((low + half).tolist()).scale(half.tolist())
+    return {"type": "cube", "to_world": place, "bsdf": {"type": "null"}, "interior": medium}
+
+
+def cloud_grid():
     return {
         **outdoors(),
         "floor": wall(diffuse(curve(WHITE)), T().translate([0, -1, 0]).rotate([1, 0, 0], -90).scale(4)),
-        "cloud": {"type": "cube", "to_world": T().scale(0.75), "bsdf": {"type": "null"}, "interior": medium},
+        "cloud": grid("cloud-grid", 64, 12.0, CLOUD_ALBEDO, 0.6, [-0.75] * 3, [0.75] * 3),
     }
+
+
+def smoke():
+    return {**boxes("smoke"), "smoke": grid("smoke", 32, 10.0, SMOKE_ALBEDO, 0.3, [-0.4, -0.95, 0.05], [0.3, 0.45, 0.75])}
 
 
 def terrain():
@@ -228,7 +242,7 @@ CAMERAS = {
     "cloud-grid": ([0, 0.1, 3.9], [0, -0.1, 0]), "terrain": ([0, 0.9, 2.4], [0, -0.25, 0]),
     "plates": ([0, 0.5, 3.6], [0, -0.1, 0]),
 }
-PARTS = {"cloud-grid": cloud_grid, "terrain": terrain, "room": room, "plates": plates}
+PARTS = {"cloud-grid": cloud_grid, "smoke": smoke, "terrain": terrain, "room": room, "plates": plates}
 
 
 def scene(name, sampler, spp, resolution):
@@ -236,7 +250,7 @@ def scene(name, sampler, spp, resolution):
     parts = PARTS[name]() if name in PARTS else boxes(name)
     return mi.load_dict({
         "type": "scene",
-        "integrator": {"type": "volpath" if name in MEDIA or name == "cloud-grid" else "path", "max_depth": 65},
+        "integrator": {"type": "volpath" if name in MEDIA or name in ("cloud-grid", "smoke") else "path", "max_depth": 65},
         "sensor": {
             "type": "perspective", "fov": 39.3077, "near_clip": 0.001, "far_clip": 100.0,
             "to_world": T().look_at(origin=origin, target=target, up=[0, 1, 0]),

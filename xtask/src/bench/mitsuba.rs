@@ -8,7 +8,7 @@ use std::{
 };
 
 /// Scenes that `xtask/peers/mitsuba_scenes.py` builds: all but the one with a tabulated lamp.
-const SCENES: [&str; 10] = [
+const SCENES: [&str; 11] = [
     "fog-box",
     "empty-box",
     "dark-fog",
@@ -16,6 +16,7 @@ const SCENES: [&str; 10] = [
     "small-lamp",
     "beam",
     "cloud-grid",
+    "smoke",
     "room",
     "plates",
     "terrain",

@@ -42,7 +42,7 @@ fn bytes(setup: &Setup, unit: &str, sizes: [(f64, PathBuf, String); 2]) -> Resul
 
 fn cloud(setup: &Setup, n: usize) -> Result<PathBuf, String> {
     let medium = format!("cloud-{n}-medium.pbrt");
-    generate::write(&setup.scene_folder().join(&medium), generate::cloud(n).as_bytes())?;
+    generate::write(&setup.scene_folder().join(&medium), generate::grid(&generate::CLOUD, n).as_bytes())?;
     changed(setup, "cloud-grid", "cloud-grid-medium.pbrt", &medium, &format!("cloud-{n}"))
 }
 

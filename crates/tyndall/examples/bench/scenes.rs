@@ -37,6 +37,7 @@ pub const SCENES: &[BenchScene] = &[
     scene("flame", "a small flame in a dark room"),
     BenchScene { delta_lights: true, ..scene("beam", "spotlight of 8 degrees through thin fog") },
     open("cloud-grid", "cloud of 64^3 voxels, albedo 0.7 to 0.99, sky"),
+    BenchScene { large: true, ..scene("smoke", "a grid of smoke in a room") },
     BenchScene { large: true, ..scene("room", "textures, rough metal, two lamps") },
     BenchScene { large: true, ..scene("plates", "four metal plates mirror four balls of light") },
     open("terrain", "a million triangles, sky"),
@@ -120,7 +121,10 @@ mod tests {
     fn the_scenes_say_nothing_that_pbrt_does_not_know() {
         let mut texts: Vec<String> =
             SCENES.iter().map(|s| crate::generate::text(s.name).expect("it is there")).collect();
-        texts.extend([crate::generate::text("walls").expect("it is there"), crate::generate::cloud(4)]);
+        texts.extend([
+            crate::generate::text("walls").expect("it is there"),
+            crate::generate::grid(&crate::generate::SMOKE, 4),
+        ]);
         let mut found = 0;
         for text in texts {
             for quoted in text.split('"').skip(1).step_by(2) {

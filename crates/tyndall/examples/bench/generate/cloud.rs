@@ -1,9 +1,37 @@
-//! The cloud: noise that thins out from the centre of a cube, on a grid.
+//! Cloud and smoke: noise that thins out from the centre of a cube, on a grid.
 
 use super::noise;
 
-/// Largest extinction coefficient \[1/m\].
-const SIGMA_T: f32 = 12.0;
+/// What a grid is made of and where it lies.
+#[derive(Debug)]
+pub struct Puff {
+    name: &'static str,
+    /// Largest extinction coefficient \[1/m\], one for all wavelengths.
+    sigma_t: f32,
+    /// Over wavelength \[nm\].
+    albedo: &'static [(f32, f32)],
+    asymmetry: f32,
+    /// Corners of its box.
+    corners: [[f32; 3]; 2],
+}
+
+/// Of `cloud-grid`: the albedo falls towards the red.
+pub const CLOUD: Puff = Puff {
+    name: "cloud",
+    sigma_t: 12.0,
+    albedo: &[(360.0, 0.99), (500.0, 0.99), (560.0, 0.97), (620.0, 0.85), (700.0, 0.75), (830.0, 0.7)],
+    asymmetry: 0.6,
+    corners: [[-0.75; 3], [0.75; 3]],
+};
+
+/// Of `smoke`: brown, for it absorbs blue.
+pub const SMOKE: Puff = Puff {
+    name: "smoke",
+    sigma_t: 10.0,
+    albedo: &[(360.0, 0.5), (500.0, 0.65), (600.0, 0.8), (830.0, 0.85)],
+    asymmetry: 0.3,
+    corners: [[-0.4, -0.95, 0.05], [0.3, 0.45, 0.75]],
+};
 
 /// Densities from 0 to 1 of `n` x `n` x `n` voxels, x fastest; the outermost voxels are empty, so that it does not
 /// matter what a renderer takes the grid to be outside.
@@ -27,23 +55,24 @@ fn density(p: [f64; 3]) -> f32 {
     (5.0 * (0.4 - radius) + 1.6 * noise).clamp(0.0, 1.0) as f32
 }
 
-/// The directive of the medium `cloud` with `n`^3 voxels: one extinction for all wavelengths, an albedo that falls
-/// towards the red.
-pub fn directive(n: usize) -> String {
-    let albedo: [(f32, f32); 6] =
-        [(360.0, 0.99), (500.0, 0.99), (560.0, 0.97), (620.0, 0.85), (700.0, 0.75), (830.0, 0.7)];
+/// The directive of a medium with `n`^3 voxels.
+pub fn directive(puff: &Puff, n: usize) -> String {
+    let Puff { name, sigma_t, albedo, asymmetry, corners: [p0, p1] } = puff;
     let curve = |share: fn(f32) -> f32| -> String {
-        albedo.iter().map(|&(nm, a)| format!("{nm} {} ", SIGMA_T * share(a))).collect()
+        albedo.iter().map(|&(nm, a)| format!("{nm} {} ", sigma_t * share(a))).collect()
     };
+    let point = |p: &[f32; 3]| p.map(|x| x.to_string()).join(" ");
     let values: Vec<String> = densities(n).iter().map(f32::to_string).collect();
     let lines: Vec<String> = values.chunks(16).map(|line| line.join(" ")).collect();
     format!(
-        "MakeNamedMedium \"cloud\" \"string type\" \"uniformgrid\" \"float g\" 0.6\n  \
+        "MakeNamedMedium \"{name}\" \"string type\" \"uniformgrid\" \"float g\" {asymmetry}\n  \
          \"spectrum sigma_s\" [{}]\n  \"spectrum sigma_a\" [{}]\n  \
-         \"point3 p0\" [-0.75 -0.75 -0.75] \"point3 p1\" [0.75 0.75 0.75]\n  \
+         \"point3 p0\" [{}] \"point3 p1\" [{}]\n  \
          \"integer nx\" {n} \"integer ny\" {n} \"integer nz\" {n} \"float density\" [\n{}]\n",
         curve(|a| a).trim_end(),
         curve(|a| 1.0 - a).trim_end(),
+        point(p0),
+        point(p1),
         lines.join("\n")
     )
 }

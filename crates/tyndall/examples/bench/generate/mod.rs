@@ -10,20 +10,23 @@ use crate::scenes::{SCENES, sources};
 use std::{fs, path::Path};
 use tyndall::files::image::{Pixels, PngOptions, write_png};
 
-pub use cloud::directive as cloud;
+pub use cloud::{CLOUD, SMOKE, directive as grid};
 pub use terrain::ply as hills;
 
-/// Voxels along each side of the cloud.
+/// Voxels along each side of the cloud, and of the smoke.
 pub const CLOUD_SIDE: usize = 64;
+const SMOKE_SIDE: usize = 32;
 /// At least so many triangles has the terrain.
 pub const TERRAIN_TRIANGLES: usize = 1_000_000;
 
 /// Writes all scenes into `folder`.
 pub fn all(folder: &Path) -> Result<(), String> {
     write_texts(folder)?;
-    write(&folder.join("cloud-grid-medium.pbrt"), cloud(CLOUD_SIDE).as_bytes())?;
-    let raw: Vec<u8> = cloud::densities(CLOUD_SIDE).iter().flat_map(|v| v.to_le_bytes()).collect();
-    write(&folder.join("cloud-grid.f32"), &raw)?;
+    for (scene, puff, side) in [("cloud-grid", &CLOUD, CLOUD_SIDE), ("smoke", &SMOKE, SMOKE_SIDE)] {
+        write(&folder.join(format!("{scene}-medium.pbrt")), grid(puff, side).as_bytes())?;
+        let raw: Vec<u8> = cloud::densities(side).iter().flat_map(|v| v.to_le_bytes()).collect();
+        write(&folder.join(format!("{scene}.f32")), &raw)?;
+    }
     write(&folder.join("terrain.ply"), &hills(TERRAIN_TRIANGLES))?;
     picture(&folder.join("tiles.png"), &images::tiles())?;
     picture(&folder.join("cloth.png"), &images::cloth())
