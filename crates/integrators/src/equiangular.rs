@@ -62,7 +62,7 @@ impl Segment {
             return None;
         }
         let (sigma_t, sigma_s) = (inside.sigma_t.mean(), inside.sigma_s.mean());
-        if sigma_s <= 0.0 {
+        if sigma_s <= 0.0 || inside.varying.is_some() {
             return None;
         }
         let albedo = sigma_s / sigma_t;
@@ -247,7 +247,8 @@ impl Division {
     ) -> Option<Self> {
         let on =
             settings.equiangular != Equiangular::Off && settings.light_sampling && scene.lights.has_points();
-        (on && !inside.sigma_s.is_zero()).then(|| Self { collisions: n as f32 * inside.sigma_t.mean() })
+        (on && !inside.sigma_s.is_zero() && inside.varying.is_none())
+            .then(|| Self { collisions: n as f32 * inside.sigma_t.mean() })
     }
 
     /// The part of flights at the distance `d` from a point of `light`.

@@ -74,7 +74,7 @@ impl Glow {
 
     #[inline(always)]
     fn new<const N: usize>(lamp: Vec3, p: Vec3, inside: &Inside<'_, N>, share: f32) -> Option<Self> {
-        if inside.sigma_s.is_zero() {
+        if inside.sigma_s.is_zero() || inside.varying.is_some() {
             return None;
         }
         let to = lamp - p;

@@ -1,10 +1,10 @@
 //! The medium a path is in; free flight and transmittance at the path's wavelengths where it is homogeneous.
 
 use crate::{
-    settings::Settings,
+    settings::{Lengths, Settings},
     weight::{Heuristic, exp},
 };
-use tyndall_geometry::SurfacePoint;
+use tyndall_geometry::{Ray, SurfacePoint};
 use tyndall_scatter::phase::PhaseFunction;
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{
@@ -12,6 +12,9 @@ use tyndall_transport::{
     media::{Heterogeneous, Medium},
     texture::TextureContext,
 };
+
+/// Optical depth of which nothing is left in 32 bits.
+const OPAQUE: f32 = 87.0;
 
 /// Coefficients \[1/m\] of the medium a path is in, looked up once on entering it.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +29,8 @@ pub struct Inside<'s, const N: usize> {
     pub le: Spectrum<N>,
     /// Phase function.
     pub phase: &'s PhaseFunction,
-    /// The medium where it varies in space: then the coefficients here are zero, and [`crate::tracking`] serves.
+    /// The medium where it varies in space: then the coefficients here are those of density 1 where it is a grid of densities
+    /// ([`Heterogeneous::is_measurable`]), else zero.
     pub varying: Option<&'s Heterogeneous>,
 }
 
@@ -34,7 +38,7 @@ impl<'s, const N: usize> Inside<'s, N> {
     /// How techniques are combined at a vertex that lies in, or was reached through, `inside`: all of them agree on it.
     #[inline(always)]
     pub fn heuristic(inside: Option<&Self>, settings: &Settings) -> Heuristic {
-        let tracked = inside.is_some_and(|inside| inside.varying.is_some());
+        let tracked = inside.is_some_and(|inside| inside.tracked(settings).is_some());
         match settings.power {
             true if tracked => Heuristic::Tracked,
             true => Heuristic::Power,
@@ -70,10 +74,28 @@ impl<'s, const N: usize> Inside<'s, N> {
             }
             Medium::Heterogeneous(m) => {
                 let z = Spectrum::ZERO;
-                let phase = &PhaseFunction::Isotropic;
-                Self { sigma_a: z, sigma_s: z, sigma_t: z, le: z, phase, varying: Some(m) }
+                let (sigma_a, sigma_s, phase) =
+                    m.of_density_one(w).unwrap_or((z, z, &PhaseFunction::Isotropic));
+                Self { sigma_a, sigma_s, sigma_t: sigma_a + sigma_s, le: z, phase, varying: Some(m) }
             }
         })
+    }
+
+    /// The medium where flights through it have to be tracked.
+    #[inline(always)]
+    pub fn tracked(&self, settings: &Settings) -> Option<&'s Heterogeneous> {
+        self.varying.filter(|m| settings.lengths == Lengths::Tracked || !m.is_measurable())
+    }
+
+    /// The length of the ray from `from` to `to` \[m\], in a medium that varies the integral of its density; infinite where
+    /// nothing gets through.
+    #[inline(always)]
+    pub fn length(&self, ray: &Ray, [from, to]: [f32; 2], settings: &Settings) -> f32 {
+        let Some(medium) = self.varying else { return to - from };
+        if settings.lengths == Lengths::Coarse {
+            return medium.coarse_length(ray, [from, to]);
+        }
+        medium.length(ray, [from, to], OPAQUE / self.sigma_t.min_lane())
     }
 
     /// exp(-sigma_t t) per lane (Beer-Lambert).

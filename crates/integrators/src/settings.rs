@@ -26,6 +26,18 @@ pub enum Guiding {
     Always,
 }
 
+/// How lengths of rays through grids of densities are known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lengths {
+    /// By null collisions (see [`crate::tracking`]).
+    #[default]
+    Tracked,
+    /// In closed form: paths that are shared need densities of flights.
+    Exact,
+    /// By coarse sums: not the lengths, but what the links between such paths are weighed by.
+    Coarse,
+}
+
 /// How a path integrator works. Defaults are what ships.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -48,6 +60,8 @@ pub struct Settings {
     /// Shadow rays through media that vary take what is certain of the extinction in closed form (residual ratio
     /// tracking); off: ratio tracking.
     pub residual: bool,
+    /// How far rays come in media that vary: not asked of the user, but of the part of a path.
+    pub lengths: Lengths,
     /// Weight by the albedo; off: absorption ends the path.
     pub survival: bool,
     /// Distances drawn towards a light.
@@ -81,6 +95,7 @@ impl Default for Settings {
             power: true,
             exact_transmittance: true,
             residual: true,
+            lengths: Lengths::Tracked,
             survival: true,
             equiangular: Equiangular::Auto,
             equiangular_depth: u32::MAX,

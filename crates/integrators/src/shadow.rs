@@ -26,7 +26,7 @@ impl<const N: usize> Shadow<N> {
         Self { t: Spectrum::ONE, r_l: Spectrum::ONE, r_u: Spectrum::ONE, end }
     }
 
-    /// Passes a homogeneous medium, with its exact transmittance.
+    /// Passes a medium, with its exact transmittance over a length.
     #[inline(always)]
     fn attenuate(&mut self, inside: &Inside<'_, N>, distance: f32, settings: &Settings) {
         let t = inside.transmittance(distance);
@@ -107,8 +107,10 @@ pub fn past<const N: usize>(
         let hit = if boundary { scene.next_boundary(&ray) } else { None };
         let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
         if let Some(inside) = &inside {
-            match inside.varying {
-                None => attenuate(&mut s, inside, t, settings, sampler)?,
+            match inside.tracked(settings) {
+                None => {
+                    attenuate(&mut s, inside, inside.length(&ray, [0.0, t], settings), settings, sampler)?
+                }
                 Some(m) => tracking::transmit(m, &ray, t, w, settings, sampler.stream(), &mut s)?,
             }
         }
@@ -137,10 +139,10 @@ fn through<const N: usize>(
     for k in 0..=hits.len() {
         let to = if k < hits.len() { hits[k].t } else { ray.t_max };
         if let Some(inside) = &inside {
-            if inside.varying.is_some() {
+            if inside.tracked(settings).is_some() {
                 return None;
             }
-            s.attenuate(inside, to - from, settings);
+            s.attenuate(inside, inside.length(ray, [from, to], settings), settings);
         }
         if k < hits.len() {
             s.end = scene.medium_behind(ray, &hits[k], s.end);

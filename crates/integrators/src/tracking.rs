@@ -68,6 +68,8 @@ pub struct Traveller<'a, 'm, const N: usize> {
     pub flight: &'a mut f32,
     /// The path's weight.
     pub weight: &'a mut PathWeight<N>,
+    /// The lane that decides: the hero, but for paths that are shared.
+    pub pilot: usize,
     /// Emission that reaches the pixel.
     pub emitted: &'a mut Spectrum<N>,
     /// How light sampling could have found that emission.
@@ -121,7 +123,7 @@ impl<'m, const N: usize> Visitor<'m> for Fly<'_, 'm, N> {
         while let Some(stretch) = walker.step() {
             let sampled = a.sampled(&stretch);
             loop {
-                let rate = unit.hero() * stretch.max;
+                let rate = unit[a.pilot] * stretch.max;
                 let tau = rate * (stretch.t1 - t);
                 if *a.flight >= tau {
                     *a.flight -= tau;
@@ -180,8 +182,8 @@ impl<const N: usize> Traveller<'_, '_, N> {
         if point.emitted.is_zero() {
             return;
         }
-        let inv = 1.0 / (unit.hero() * max);
-        let ratio = over_hero(unit, passed.max);
+        let inv = 1.0 / (unit[self.pilot] * max);
+        let ratio = over(unit, self.pilot, passed.max);
         let mut r = self.weight.r_u * unit * ratio * (max * inv);
         if let Some(ember) = &self.ember {
             let density = ember.density(self.ray.at(t), p);
@@ -197,7 +199,7 @@ impl<const N: usize> Traveller<'_, '_, N> {
         if !self.settings.exact_transmittance {
             return ratio;
         }
-        let hero = unit.hero() * passed.max;
+        let hero = unit[self.pilot] * passed.max;
         exp(unit.map(|u| hero - u * passed.sampled))
     }
 
@@ -211,11 +213,11 @@ impl<const N: usize> Traveller<'_, '_, N> {
         passed: &mut Lengths,
     ) -> Event {
         let sigma_t = point.sigma_a + point.sigma_s;
-        let u = self.rng.next_f32() * (unit.hero() * max);
-        if u >= sigma_t.hero() {
+        let u = self.rng.next_f32() * (unit[self.pilot] * max);
+        if u >= sigma_t[self.pilot] {
             let sigma_n = (unit * max - sigma_t).max(0.0);
             let competing = if self.settings.exact_transmittance { unit * sampled } else { sigma_n };
-            if !self.weight.null(sigma_n, competing) {
+            if !self.weight.null(self.pilot, sigma_n, competing) {
                 return Event::Ended;
             }
             passed.nulls += 1;
@@ -225,10 +227,10 @@ impl<const N: usize> Traveller<'_, '_, N> {
             return Event::Null;
         }
         let coefficient = if self.settings.survival { sigma_t } else { point.sigma_s };
-        if u >= coefficient.hero() {
+        if u >= coefficient[self.pilot] {
             return Event::Ended;
         }
-        let ratio = over_hero(unit, passed.max) * (1.0 / coefficient.hero());
+        let ratio = over(unit, self.pilot, passed.max) * (1.0 / coefficient[self.pilot]);
         self.weight.fly(point.sigma_s * ratio, coefficient * ratio);
         if self.weight.beta.is_zero() { Event::Ended } else { Event::Real }
     }
@@ -236,18 +238,18 @@ impl<const N: usize> Traveller<'_, '_, N> {
     /// Multiplies the transmittances of the majorant into the weights.
     #[inline(always)]
     fn catch_up(&mut self, unit: Spectrum<N>, passed: &mut Lengths) {
-        let ratio = over_hero(unit, passed.max);
+        let ratio = over(unit, self.pilot, passed.max);
         self.weight.fly(ratio, ratio);
         self.weight.compete(self.competing(unit, ratio, passed));
         *passed = Lengths::default();
     }
 }
 
-/// `exp(-(unit_k - unit_hero) length)`.
+/// `exp(-(unit_k - unit_j) length)`.
 #[inline(always)]
-fn over_hero<const N: usize>(unit: Spectrum<N>, length: f32) -> Spectrum<N> {
-    let hero = unit.hero();
-    exp(unit.map(|u| (hero - u) * length))
+fn over<const N: usize>(unit: Spectrum<N>, j: usize, length: f32) -> Spectrum<N> {
+    let least = unit[j];
+    exp(unit.map(|u| (least - u) * length))
 }
 
 /// Transmittance of `medium` along a shadow ray up to `t_max`, multiplied into `s`; `None` when nothing gets through.
@@ -367,7 +369,7 @@ impl<const N: usize> Estimate<N> {
 
     #[inline(always)]
     fn catch_up(&mut self, unit: Spectrum<N>, passed: &mut Lengths, settings: &Settings) {
-        let ratio = over_hero(unit, passed.sampled);
+        let ratio = over(unit, 0, passed.sampled);
         self.r_l *= ratio;
         self.r_u *= if settings.exact_transmittance {
             let hero = unit.hero() * passed.sampled;

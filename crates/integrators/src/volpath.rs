@@ -113,6 +113,8 @@ pub(crate) struct Walk<'s, const N: usize> {
     divided: Option<Division>,
     /// The hero is drawn anew at the first scattering, so that densities before and after it are apart.
     pub anew: bool,
+    /// Scatterings in media that vary are sites as those in others: they may be shared.
+    pub open: bool,
     /// Light of fewer scatterings than this is left to others.
     pub from: u32,
     /// What the path brought so far.
@@ -167,6 +169,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             each: 0,
             divided: None,
             anew: false,
+            open: false,
             from: 0,
             l: Spectrum::ZERO,
         }
@@ -219,8 +222,8 @@ impl<'s, const N: usize> Walk<'s, N> {
         };
         let t_max = ahead.distance();
         if let Some(medium) = self.inside.and_then(|inside| inside.varying) {
-            if let Some(goes_on) = self.travel(medium, t_max, sampler, seen) {
-                return if goes_on { Step::On } else { Step::End };
+            if let Some(step) = self.travel(medium, t_max, sampler, seen) {
+                return step;
             }
         } else if let Some(inside) = self.inside {
             self.emission(&inside, t_max, seen);

@@ -75,12 +75,12 @@ impl<const N: usize> PathWeight<N> {
         self.r_u *= pdf_over_hero;
     }
 
-    /// A null collision: coefficient `sigma_n` per lane, and what the techniques that choose a light would have put
+    /// A null collision that the lane `pilot` decided: coefficient `sigma_n` per lane, and what the techniques that choose a light would have put
     /// there, `competing`; false when the hero cannot have made it.
     #[inline(always)]
     #[must_use]
-    pub fn null(&mut self, sigma_n: Spectrum<N>, competing: Spectrum<N>) -> bool {
-        let hero = sigma_n.hero();
+    pub fn null(&mut self, pilot: usize, sigma_n: Spectrum<N>, competing: Spectrum<N>) -> bool {
+        let hero = sigma_n[pilot];
         if hero.is_nan() || hero <= 0.0 {
             return false;
         }

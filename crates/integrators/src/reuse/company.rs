@@ -10,10 +10,15 @@ pub(super) struct Company<'a, const N: usize> {
     /// By who reaches the point.
     links: &'a mut Vec<(usize, Link<N>)>,
     /// Sums over all links.
-    pub through: Spectrum<N>,
-    pub density: Spectrum<N>,
+    through: Spectrum<N>,
+    density: Spectrum<N>,
     /// Light that was sampled at the point, and where from.
     lit: (Vec3, Spectrum<N>),
+    /// What the next to join gets besides, as all links together get what they do by weights that lack something.
+    mended: Option<(usize, Spectrum<N>)>,
+    /// One over the density that the point was drawn with; the density that weights have in its place, over it.
+    drawn: f32,
+    skew: f32,
     /// Where the path went on to.
     leaves: Vec3,
 }
@@ -24,7 +29,50 @@ impl<'a, const N: usize> Company<'a, N> {
     pub fn empty(links: &'a mut Vec<(usize, Link<N>)>) -> Self {
         links.clear();
         let zero = Spectrum::ZERO;
-        Self { links, through: zero, density: zero, lit: (Vec3::ZERO, zero), leaves: Vec3::ZERO }
+        Self {
+            links,
+            through: zero,
+            density: zero,
+            lit: (Vec3::ZERO, zero),
+            mended: None,
+            drawn: 0.0,
+            skew: 1.0,
+            leaves: Vec3::ZERO,
+        }
+    }
+
+    /// Member `k`, whose path drew the point with the density `own`, reaches it by `link`.
+    #[inline(always)]
+    pub fn begin(&mut self, k: usize, link: Link<N>, own: f32, skew: f32) {
+        (self.drawn, self.skew) = (1.0 / own, skew);
+        self.join(k, link);
+    }
+
+    /// The same in media that vary, by the `exact` link and the one that weights are made of; false where there is no saying.
+    #[inline(always)]
+    #[must_use]
+    pub fn begin_by(&mut self, k: usize, exact: Link<N>, weighed: Link<N>) -> bool {
+        let own = exact.density.hero();
+        let skew = weighed.density.hero() / own;
+        self.begin(k, Link { through: exact.through, ..weighed }, own, skew);
+        own.is_normal() && skew.is_finite()
+    }
+
+    /// Throughput and density of the path that goes on from the point for all, over the density that it was drawn with.
+    #[inline(always)]
+    pub fn start(&self) -> (Spectrum<N>, Spectrum<N>) {
+        (self.through * (self.drawn * self.skew), self.density * self.drawn)
+    }
+
+    /// The part that the path itself has in the density of the point, and what that density is over the one drawn with.
+    pub fn own(&self) -> [f32; 2] {
+        [self.skew / (self.density.hero() * self.drawn), self.skew]
+    }
+
+    /// The next to join gets this, too, of what the point scatters.
+    #[inline(always)]
+    pub fn mend(&mut self, extra: Spectrum<N>) {
+        self.mended = Some((self.links.len(), extra));
     }
 
     /// Member `i` reaches the point by `link`.
@@ -41,6 +89,9 @@ impl<'a, const N: usize> Company<'a, N> {
         let l = l.safe_div(self.through);
         for (i, link) in self.links.iter() {
             give(*i, l * link.through);
+        }
+        if let Some((n, extra)) = &self.mended {
+            give(self.links[*n].0, l * *extra);
         }
     }
 
@@ -83,6 +134,10 @@ impl<'a, const N: usize> Company<'a, N> {
         let l = l.safe_div(all);
         for (i, link) in self.links.iter() {
             give(*i, l * link.sent);
+        }
+        if let Some((n, extra)) = &self.mended {
+            let (i, link) = &self.links[*n];
+            give(*i, l * *extra * at.eval_from(link.wo, wi, w).0);
         }
     }
 

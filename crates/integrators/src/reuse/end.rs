@@ -149,8 +149,6 @@ pub(super) struct Shared<'s, const N: usize> {
     /// What collides per metre, and what scatters; 1 on a surface.
     density: Spectrum<N>,
     scattering: Spectrum<N>,
-    /// Density of the point as its own path drew it: the hero's, per volume or area.
-    pub own: f32,
 }
 
 /// Contribution and density of `y_k` as reached from some `x_i`.
@@ -169,20 +167,21 @@ pub(super) struct Link<const N: usize> {
 impl<'s, const N: usize> Shared<'s, N> {
     /// The site that `walk` reached from `from`, if others may go on from it.
     #[inline(always)]
-    pub fn new(walk: &Walk<'_, N>, from: &Origin<'_, N>, at: &Site<'s, N>) -> Option<Self> {
+    pub fn new(walk: &Walk<'_, N>, at: &Site<'s, N>) -> Option<Self> {
         // what lies behind depends on where the path entered, which is another point for each
         if matches!(walk.scene.medium(at.medium()), Some(Medium::Painted(_))) {
             return None;
         }
-        let mut shared = match at {
+        Some(match at {
             Site::Medium(at) => {
                 if openness(at.inside.phase, walk.w()) < LEAST_OPEN {
                     return None;
                 }
-                let (density, scattering) = (at.inside.sigma_t, at.inside.sigma_s);
+                let local = at.inside.varying.map_or(1.0, |m| m.density(at.p));
+                let (density, scattering) = (at.inside.sigma_t * local, at.inside.sigma_s * local);
                 let (target, time) = (Target::free(at.p), walk.ray.time);
                 let medium = Some((at.medium, at.inside));
-                Self { target, medium, end: at.p, time, facing: None, density, scattering, own: 0.0 }
+                Self { target, medium, end: at.p, time, facing: None, density, scattering }
             }
             Site::Surface(at) => {
                 if roughness(&at.bsdf) < LEAST_ROUGH {
@@ -194,15 +193,9 @@ impl<'s, const N: usize> Shared<'s, N> {
                 let end = at.isect.surface.origin(-walk.ray.d);
                 let medium = at.inside.map(|inside| (at.medium, inside));
                 let (time, one) = (walk.ray.time, Spectrum::ONE);
-                Self { target, medium, end, time, facing, density: one, scattering: one, own: 0.0 }
+                Self { target, medium, end, time, facing, density: one, scattering: one }
             }
-        };
-        let to = shared.target.p - from.p;
-        let r2 = to.length_squared();
-        let towards = from.site.eval(walk.ray.d, walk.w()).1.hero();
-        let passed = exp(Spectrum([-walk.flown()])).hero();
-        shared.own = towards * passed * shared.density.hero() * shared.geometry(walk.ray.d, r2)?;
-        shared.own.is_normal().then_some(shared)
+        })
     }
 
     /// Volume or area per solid angle, inverse; `None` for the side that the path did not come from.
@@ -220,11 +213,16 @@ impl<'s, const N: usize> Shared<'s, N> {
         (cos > 0.0 && r2 > 0.0).then(|| cos / r2)
     }
 
-    /// The point as its own path reached it.
+    /// The point as its own path reached it from `from` through media that do not vary, and the density that it drew the
+    /// point with: the hero's, per volume or area.
     #[inline(always)]
-    pub fn own_link(&self, walk: &Walk<'_, N>) -> Link<N> {
-        let (through, density) = (walk.weight.beta * self.own, walk.weight.r_u * self.own);
-        Link { through, density, wo: -walk.ray.d, sent: Spectrum::ZERO }
+    pub fn own_link(&self, walk: &Walk<'_, N>, from: &Origin<'_, N>) -> Option<(Link<N>, f32)> {
+        let r2 = (self.target.p - from.p).length_squared();
+        let towards = from.site.eval(walk.ray.d, walk.w()).1.hero();
+        let passed = exp(Spectrum([-walk.flown()])).hero();
+        let own = towards * passed * self.density.hero() * self.geometry(walk.ray.d, r2)?;
+        let (through, density) = (walk.weight.beta * own, walk.weight.r_u * own);
+        own.is_normal().then_some((Link { through, density, wo: -walk.ray.d, sent: Spectrum::ZERO }, own))
     }
 
     /// The point as aimed at from `from`; `None` where nothing scatters to it.
@@ -241,6 +239,20 @@ impl<'s, const N: usize> Shared<'s, N> {
         }
         let ray = segment(from.start(wi), self.end, self.time)?;
         Some(Aim { ray, wi, f: f * geometry, pdf: pdf * geometry })
+    }
+
+    /// The same as [`Self::link`], for a link that is rare.
+    #[inline(never)]
+    pub fn link_apart(
+        &self,
+        scene: (&Scene, &Settings),
+        from: &Origin<'_, N>,
+        aim: &Aim<N>,
+        boundaries: Notes,
+        w: &Wavelengths<N>,
+        sampler: &mut PathSampler,
+    ) -> Option<Link<N>> {
+        self.link(scene, from, aim, boundaries, w, sampler)
     }
 
     /// The point as reached from `from`, where nothing blocks the aim; `boundaries` without material lie between.

@@ -24,8 +24,11 @@
 
 mod choose;
 mod company;
+mod depart;
 mod end;
 mod group;
+mod join;
+mod worth;
 
 use crate::{
     pixel::{Lanes, PixelPass},
@@ -41,6 +44,10 @@ const FINE: u32 = 256;
 /// less than this is lost in the noise of what is scattered once, and the links cost more than they bring.
 const SOME: f32 = 0.12;
 const MANY: f32 = 0.35;
+/// The part of a shared point that is its own path's, at most, for links through media that vary to pay; and the mean square
+/// by which coarse lengths are wrong there.
+const OWN: f32 = 0.3;
+const WRONG: f32 = 0.01;
 /// Most paths that are shared.
 pub(crate) const MOST: usize = 64;
 
@@ -127,5 +134,9 @@ fn allowed(s: &Settings) -> bool {
 
 /// So must those of passing between two points.
 fn possible(scene: &Scene) -> bool {
-    !scene.has_alpha && !scene.media.iter().any(|m| matches!(m, Medium::Heterogeneous(_)))
+    let known = |m: &Medium| match m {
+        Medium::Heterogeneous(m) => m.is_measurable(),
+        Medium::Homogeneous(_) | Medium::Painted(_) => true,
+    };
+    !scene.has_alpha && scene.media.iter().all(known)
 }

@@ -1,6 +1,6 @@
 //! The part of the walk that lies in media that vary in space.
 
-use super::Walk;
+use super::{MediumSite, Site, Step, Walk};
 use crate::{
     direct::Scatterer,
     ember::Ember,
@@ -14,7 +14,7 @@ use tyndall_spectral::Spectrum;
 use tyndall_transport::{media::Heterogeneous, sampler::PathSampler};
 
 impl<'s, const N: usize> Walk<'s, N> {
-    /// Crosses `medium` up to `t_max`; `None` when the path got through, else whether it goes on from where it scattered.
+    /// Crosses `medium` up to `t_max`; `None` when the path got through, else what that led to.
     #[inline(always)]
     pub(super) fn travel(
         &mut self,
@@ -22,7 +22,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         t_max: f32,
         sampler: &mut PathSampler,
         seen: &mut impl PathObserver<N>,
-    ) -> Option<bool> {
+    ) -> Option<Step<'s, N>> {
         let mut emitted = Spectrum::ZERO;
         let by_light = self.settings.light_sampling && !self.weight.r_l.is_zero();
         let ember =
@@ -34,6 +34,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             settings: self.settings,
             flight: &mut self.flight,
             weight: &mut self.weight,
+            pilot: self.pilot,
             emitted: &mut emitted,
             ember,
             rng: sampler.stream(),
@@ -44,14 +45,29 @@ impl<'s, const N: usize> Walk<'s, N> {
         }
         match flight {
             Flight::Through => None,
-            Flight::Ended => Some(false),
-            Flight::Scattered(collision) => Some(self.scatter_varying(&collision, sampler, seen)),
+            Flight::Ended => Some(Step::End),
+            Flight::Scattered(collision) => {
+                if !self.arrive(&collision, sampler, seen) {
+                    return Some(Step::End);
+                }
+                if self.open
+                    && let Some(inside) = self.inside
+                {
+                    let (p, medium) = (self.previous, self.medium);
+                    let steering =
+                        Steering::in_mixture((self.scene, self.settings), p, &collision.scattering, self.w);
+                    let wo = -self.ray.d;
+                    return Some(Step::Site(Site::Medium(MediumSite { p, wo, medium, inside, steering })));
+                }
+                let goes_on = self.scatter_varying(&collision, sampler, seen);
+                Some(if goes_on { Step::On } else { Step::End })
+            }
         }
     }
 
-    /// A scattering whose flight is in the weight already.
+    /// At a scattering whose flight is in the weight already; false where the path ends.
     #[inline(always)]
-    fn scatter_varying(
+    fn arrive(
         &mut self,
         collision: &Collision<'s, N>,
         sampler: &mut PathSampler,
@@ -69,7 +85,18 @@ impl<'s, const N: usize> Walk<'s, N> {
         self.divided = None;
         self.at(p, Vec3::ZERO);
         self.scattered_widely = true;
+        true
+    }
 
+    /// Scatters there; false when the path ends.
+    #[inline(always)]
+    fn scatter_varying(
+        &mut self,
+        collision: &Collision<'s, N>,
+        sampler: &mut PathSampler,
+        seen: &mut impl PathObserver<N>,
+    ) -> bool {
+        let p = self.previous;
         let wo = -self.ray.d;
         let scattering = &collision.scattering;
         let steering = Steering::in_mixture((self.scene, self.settings), p, scattering, self.w);

@@ -8,5 +8,6 @@ mod invariance;
 mod known;
 mod media;
 mod painted;
+mod shared;
 mod sparse;
 mod table;

@@ -5,6 +5,7 @@ mod writer;
 
 use super::common::{Run, judge::Family};
 use super::media::{self, ALBEDO, BANDS};
+use std::path::Path;
 use writer::Spec;
 
 const N: i32 = 20;
@@ -18,20 +19,27 @@ fn voxel(v: [i32; 3]) -> f32 {
     0.25 * ((at[0] * 5 + at[1] * 3 + at[2] * 7) % 9) as f32
 }
 
-#[test]
-fn nanovdb_is_the_uniform_grid() {
+/// The medium "m" of the grid of a type, written into `dir`, with spectra times `scale`.
+pub fn grid(dir: &Path, kind: u32, scale: f64) -> String {
     let edge = 1.0 / f64::from(N);
-    let (first, last) = ([3; 3], [N + 2; 3]);
-    let grid = |kind| Spec {
+    let grid = Spec {
         name: "density",
         kind,
         class: 2,
-        first,
-        last,
+        first: [3; 3],
+        last: [N + 2; 3],
         voxel_size: edge,
         offset: [-2.5 * edge; 3],
         value: &voxel,
     };
+    let path = dir.join(format!("{kind}.nvdb"));
+    std::fs::write(&path, writer::file(0, &[grid], |b| b)).expect("a file");
+    let spectra = format!("{}{}", media::spectra(&ALBEDO, scale), media::phase());
+    media::medium("nanovdb", &format!(" \"string filename\" \"{}\"{spectra}", path.display()))
+}
+
+#[test]
+fn nanovdb_is_the_uniform_grid() {
     let dir = tempfile::tempdir().unwrap();
     let spectra = format!("{}{}", media::spectra(&ALBEDO, 2.0), media::phase());
     let index = |i: i32| [3 + i % N, 3 + i / N % N, 3 + i / N / N];
@@ -47,10 +55,8 @@ fn nanovdb_is_the_uniform_grid() {
     let mut family = Family::default();
     // codes of 16 bits keep these values to 1e-5
     for (kind, seed) in [(1, 2), (2, 3), (15, 4)] {
-        let path = dir.path().join(format!("{kind}.nvdb"));
-        std::fs::write(&path, writer::file(0, &[grid(kind)], |b| b)).unwrap();
-        let parameters = format!(" \"string filename\" \"{}\"{spectra}", path.display());
-        let got = Run::new(BANDS, 512).seed(seed).bands(&text(&media::medium("nanovdb", &parameters)));
+        let medium = grid(dir.path(), kind, 2.0);
+        let got = Run::new(BANDS, 512).seed(seed).bands(&text(&medium));
         family.equal(&format!("grid of type {kind}"), &got, &expected);
     }
     family.assert(0.05);
