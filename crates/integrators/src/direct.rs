@@ -41,6 +41,8 @@ pub struct Scatterer<'a, 's, S, F, const N: usize> {
     pub n: Vec3,
     /// Where a shadow ray along a direction starts and in which medium.
     pub spawn: S,
+    /// The half of the sphere that light counts from, by its axis; zero for all of it.
+    pub half: Vec3,
     /// `(f |cos|, density)` towards a direction, per lane.
     pub eval: F,
     /// Equiangular technique of a medium vertex.
@@ -137,7 +139,8 @@ where
         if let Light::Volume(volume) = light {
             return self.ember(path, (volume, selected.pmf), u, sampler).unwrap_or(Spectrum::ZERO);
         }
-        let Some(sample) = light.sample_li(&scene.accel, self.p, u, w) else { return Spectrum::ZERO };
+        let from = (self.p, self.half);
+        let Some(sample) = light.sample_li_above(&scene.accel, from, u, w) else { return Spectrum::ZERO };
         let (f, pdf) = (self.eval)(sample.wi);
         if f.is_zero() {
             return Spectrum::ZERO;

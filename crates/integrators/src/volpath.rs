@@ -81,6 +81,8 @@ pub(crate) struct Walk<'s, const N: usize> {
     previous: Vec3,
     /// Normal of the surface there, zero in a medium.
     facing: Vec3,
+    /// The half of the sphere that it takes light from; see [`SurfaceSite::half`].
+    half: Vec3,
     medium: MediumId,
     inside: Option<Inside<'s, N>>,
     pub weight: PathWeight<N>,
@@ -152,6 +154,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             certain: scene.has_boundaries,
             previous: ray.o,
             facing: Vec3::ZERO,
+            half: Vec3::ZERO,
             medium,
             inside: Inside::of(scene, medium, w),
             weight,
@@ -392,7 +395,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         for &id in self.scene.lights.infinite() {
             let light = self.scene.lights.get(id);
             let le = light.le_infinite(self.previous, self.ray.d, self.w);
-            let pdf = self.pmf(id) * light.pdf_infinite(self.previous, self.ray.d);
+            let pdf = self.pmf(id) * light.pdf_infinite_above((self.previous, self.half), self.ray.d);
             let by_light = self.weight.r_l * (self.by_light(pdf) * self.heuristic.trust());
             self.met(le, [by_light, Spectrum::ZERO], seen);
         }
@@ -401,7 +404,7 @@ impl<'s, const N: usize> Walk<'s, N> {
     /// The path scatters at `p`; `n` is the normal of a surface, zero in a medium.
     #[inline(always)]
     fn at(&mut self, p: Vec3, n: Vec3) {
-        (self.previous, self.facing, self.each) = (p, n, 0);
+        (self.previous, self.facing, self.half, self.each) = (p, n, Vec3::ZERO, 0);
         self.heuristic = Inside::heuristic(self.inside.as_ref(), self.settings);
     }
 
@@ -463,15 +466,10 @@ impl<'s, const N: usize> Walk<'s, N> {
             bsdf.flags(),
             self.inside.as_ref(),
         );
-        Step::Site(Site::Surface(SurfaceSite {
-            isect,
-            frame,
-            bsdf,
-            wo,
-            medium: self.medium,
-            inside: self.inside,
-            steering,
-        }))
+        let (medium, inside) = (self.medium, self.inside);
+        let site = SurfaceSite { isect, frame, bsdf, wo, medium, inside, steering };
+        self.half = site.half();
+        Step::Site(Site::Surface(site))
     }
 
     /// Light that the surface emits towards the path.

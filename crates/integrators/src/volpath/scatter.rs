@@ -67,6 +67,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             let vertex = Scatterer {
                 p: at.p,
                 n: Vec3::ZERO,
+                half: Vec3::ZERO,
                 spawn: |_| (at.p, at.medium),
                 eval: |wi| {
                     towards.set(wi);
@@ -112,6 +113,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             let vertex = Scatterer {
                 p: at.isect.surface.p,
                 n: at.isect.surface.ng,
+                half: at.half(),
                 spawn: |wi| at.spawn(wi),
                 eval: |wi| {
                     towards.set(wi);

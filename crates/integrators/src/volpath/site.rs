@@ -6,7 +6,7 @@ use crate::{
 };
 use tyndall_base::Vec3;
 use tyndall_geometry::Frame;
-use tyndall_scatter::bsdf::Bsdf;
+use tyndall_scatter::bsdf::{Bsdf, BsdfFlags};
 use tyndall_spectral::{Spectrum, Wavelengths};
 use tyndall_transport::{Interaction, MediumId};
 
@@ -80,6 +80,18 @@ impl<const N: usize> SurfaceSite<'_, N> {
         let local = self.frame.to_local(wi);
         let (f, pdf) = self.bsdf.eval_pdf(wo, local);
         (f * local.z.abs(), mixed(self.steering.as_ref(), pdf, wi))
+    }
+
+    /// The half of the sphere that light counts from, by its axis; zero where what comes from behind counts, too.
+    #[inline(always)]
+    pub fn half(&self) -> Vec3 {
+        if self.bsdf.flags().contains(BsdfFlags::TRANSMISSION) {
+            Vec3::ZERO
+        } else if self.wo.z < 0.0 {
+            -self.frame.z
+        } else {
+            self.frame.z
+        }
     }
 
     /// Where a ray along `wi` starts, and in which medium.

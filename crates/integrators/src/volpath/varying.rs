@@ -105,6 +105,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             let vertex = Scatterer {
                 p,
                 n: Vec3::ZERO,
+                half: Vec3::ZERO,
                 spawn: |_| (p, medium),
                 eval: |wi| {
                     let phase = scattering.eval(wo, wi, self.w);

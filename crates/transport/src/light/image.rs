@@ -6,7 +6,7 @@
 
 use super::LiSample;
 use crate::TransportError;
-use tyndall_base::{Vec3, distribution::Piecewise2d, math, vec::vec3};
+use tyndall_base::{Vec3, distribution::Piecewise2d, math, vec::vec3, warp};
 use tyndall_spectral::{Curve, Emission, Spectrum, Wavelengths, curve::SigmoidPolynomial};
 
 /// A colour as a spectrum: `scale` times a smooth reflectance, to be multiplied by the map's white.
@@ -62,7 +62,7 @@ impl ImageInfiniteLight {
         let d = square_to_sphere(uv);
         let wi = self.axes[0] * d.x + self.axes[1] * d.y + self.axes[2] * d.z;
         let l = self.radiance(uv, w);
-        let pdf = pdf * super::UniformInfiniteLight::PDF;
+        let pdf = pdf * warp::pdf_uniform_sphere();
         (pdf > 0.0 && !l.is_zero()).then_some(LiSample { l, wi, target: None, pdf, delta: false })
     }
 
@@ -75,7 +75,7 @@ impl ImageInfiniteLight {
     /// Density of [`Self::sample_li`] \[1/sr\].
     #[inline]
     pub fn pdf(&self, d: Vec3) -> f32 {
-        self.distribution.pdf(sphere_to_square(self.local(d))) * super::UniformInfiniteLight::PDF
+        self.distribution.pdf(sphere_to_square(self.local(d))) * warp::pdf_uniform_sphere()
     }
 
     /// Mean emission over directions.
@@ -125,7 +125,7 @@ pub fn sphere_to_square(d: Vec3) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tyndall_base::{rng::Pcg32, warp};
+    use tyndall_base::rng::Pcg32;
 
     #[test]
     fn octahedral_map_inverts() {

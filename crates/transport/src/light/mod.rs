@@ -123,12 +123,24 @@ impl Light {
         u: [f32; 2],
         w: &Wavelengths<N>,
     ) -> Option<LiSample<N>> {
+        self.sample_li_above(accel, (p, Vec3::ZERO), u, w)
+    }
+
+    /// The same where only light from the half of the sphere around the unit vector `half` counts; zero for all of it.
+    #[inline]
+    pub fn sample_li_above<const N: usize>(
+        &self,
+        accel: &Accel,
+        (p, half): (Vec3, Vec3),
+        u: [f32; 2],
+        w: &Wavelengths<N>,
+    ) -> Option<LiSample<N>> {
         match self {
             Self::Area(l) => l.sample_li(accel, p, u, w),
             Self::Point(l) => l.sample_li(p, w),
             Self::Spot(l) => l.sample_li(p, w),
             Self::Distant(l) => Some(l.sample_li(w)),
-            Self::Infinite(l) => Some(l.sample_li(u, w)),
+            Self::Infinite(l) => Some(l.sample_li(half, u, w)),
             Self::Image(l) => l.sample_li(u, w),
             Self::Portal(l) => l.sample_li(p, u, w),
             Self::Goniometric(l) => l.sample_li(p, w),
@@ -223,8 +235,14 @@ impl Light {
     /// Density per solid angle with which `sample_li` draws direction `d` from `p` (lights at infinity only).
     #[inline]
     pub fn pdf_infinite(&self, p: Vec3, d: Vec3) -> f32 {
+        self.pdf_infinite_above((p, Vec3::ZERO), d)
+    }
+
+    /// The same of [`Self::sample_li_above`].
+    #[inline]
+    pub fn pdf_infinite_above(&self, (p, half): (Vec3, Vec3), d: Vec3) -> f32 {
         match self {
-            Self::Infinite(_) => UniformInfiniteLight::PDF,
+            Self::Infinite(_) => UniformInfiniteLight::pdf(half, d),
             Self::Image(l) => l.pdf(d),
             Self::Portal(l) => l.pdf(p, d),
             _ => 0.0,
