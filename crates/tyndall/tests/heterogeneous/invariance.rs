@@ -6,20 +6,16 @@ use super::media::{self, ALBEDO, BANDS};
 use tyndall_film::ErrorMode;
 use tyndall_geometry::Dispatch;
 
-const LAMP: [f64; 8] = [1.5, 0.5, 1.0, 2.0, 0.3, 1.0, 1.5, 0.5];
-
 /// The cube over a grey floor under a lamp and the sky.
 fn lit(medium: &str, cube: &str) -> String {
-    let lamp = format!(
-        "AttributeBegin\nAreaLightSource \"diffuse\" \"bool absolute\" true \"bool twosided\" true{}{}\n{}\
-         Translate 0.2 0.3 1.6\nShape \"disk\" \"float radius\" 0.5\nAttributeEnd\n",
-        BANDS.interpolation(),
-        BANDS.step("L", &LAMP),
-        scene::BLACK,
-    );
     let sky = "LightSource \"infinite\" \"bool absolute\" true \"spectrum L\" [300 2 900 1]\n";
     let floor = "Material \"diffuse\" \"spectrum reflectance\" [300 0.2 900 0.7]\n";
-    format!("{}WorldBegin\n{sky}{medium}{cube}{lamp}{floor}{}", media::camera(), scene::plane(-0.1))
+    format!(
+        "{}WorldBegin\n{sky}{medium}{cube}{}{floor}{}",
+        media::camera(),
+        media::lamp(),
+        scene::plane(-0.1)
+    )
 }
 
 #[test]

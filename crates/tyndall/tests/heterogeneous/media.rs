@@ -5,6 +5,7 @@ use super::common::{Bands, Dialect, scene};
 pub const BANDS: Bands = Bands::new(8);
 pub const EXTINCTION: [f64; 8] = [4.0, 0.6, 2.5, 1.2, 3.3, 0.9, 1.8, 6.0];
 pub const ALBEDO: [f64; 8] = [0.9, 0.4, 0.7, 0.95, 0.5, 0.8, 0.3, 0.6];
+const LAMP: [f64; 8] = [1.5, 0.5, 1.0, 2.0, 0.3, 1.0, 1.5, 0.5];
 const G: [f64; 8] = [0.7, -0.4, 0.0, 0.5, -0.3, 0.85, 0.2, -0.6];
 
 /// Densities between 0 and 2 in no order, some of them zero.
@@ -16,6 +17,17 @@ pub fn densities(n: usize) -> Vec<f64> {
 /// Radiance 1 from everywhere.
 pub fn sky() -> String {
     scene::sky(Dialect::Own)
+}
+
+/// A disk above the cube.
+pub fn lamp() -> String {
+    format!(
+        "AttributeBegin\nAreaLightSource \"diffuse\" \"bool absolute\" true \"bool twosided\" true{}{}\n{}\
+         Translate 0.2 0.3 1.6\nShape \"disk\" \"float radius\" 0.5\nAttributeEnd\n",
+        BANDS.interpolation(),
+        BANDS.step("L", &LAMP),
+        scene::BLACK,
+    )
 }
 
 pub fn numbers(name: &str, values: &[f64]) -> String {

@@ -11,19 +11,12 @@ use std::sync::Arc;
 use tyndall::integrators::reuse::Grouping;
 
 const REFLECTANCE: [f64; 8] = [0.3, 0.6, 0.9, 0.5, 0.7, 0.4, 0.8, 0.2];
-const LAMP: [f64; 8] = [1.5, 0.5, 1.0, 2.0, 0.3, 1.0, 1.5, 0.5];
 const FEW: Grouping = Grouping { cells: 4, cell: 1 };
 const MANY: Grouping = Grouping { cells: 8, cell: 1 };
 
 /// The cube between a floor and a wall, under a lamp and the sky.
 fn lit(medium: &str) -> String {
-    let lamp = format!(
-        "AttributeBegin\nAreaLightSource \"diffuse\" \"bool absolute\" true \"bool twosided\" true{}{}\n{}\
-         Translate 0.2 0.3 1.6\nShape \"disk\" \"float radius\" 0.5\nAttributeEnd\n",
-        BANDS.interpolation(),
-        BANDS.step("L", &LAMP),
-        scene::BLACK,
-    );
+    let lamp = media::lamp();
     let matt = scene::diffuse(&BANDS, &REFLECTANCE);
     let wall = "Shape \"bilinearmesh\" \"point3 P\" [-0.4 -3 -3  -0.4 3 -3  -0.4 -3 3  -0.4 3 3]\n";
     let (camera, sky, cube, floor) = (media::camera(), media::sky(), media::cube(), scene::plane(-0.1));
