@@ -94,7 +94,7 @@ impl Heterogeneous {
         Ok(Self { to_world, to_grid: to_world.inverse(), unit, model, majorants, range, measurable, coarse })
     }
 
-    /// Whether [`Self::follow`] serves: a grid of densities that does not emit.
+    /// Whether [`Self::length`] serves: a grid of densities that does not emit.
     #[inline(always)]
     pub fn is_measurable(&self) -> bool {
         self.measurable
