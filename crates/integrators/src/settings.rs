@@ -26,15 +26,16 @@ pub enum Guiding {
     Always,
 }
 
-/// How lengths of rays through grids of densities are known.
+/// How lengths of rays through grids of densities are known. Paths are tracked, all of them; links between shared paths are
+/// not (see [`crate::reuse`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lengths {
     /// By null collisions (see [`crate::tracking`]).
     #[default]
     Tracked,
-    /// In closed form: paths that are shared need densities of flights.
+    /// In closed form.
     Exact,
-    /// By coarse sums: not the lengths, but what the links between such paths are weighed by.
+    /// By coarse sums: not the lengths, but what links are weighed by.
     Coarse,
 }
 
@@ -60,7 +61,7 @@ pub struct Settings {
     /// Shadow rays through media that vary take what is certain of the extinction in closed form (residual ratio
     /// tracking); off: ratio tracking.
     pub residual: bool,
-    /// How far rays come in media that vary: not asked of the user, but of the part of a path.
+    /// How far rays come in media that vary: no switch of the user's, links have settings of their own.
     pub lengths: Lengths,
     /// Weight by the albedo; off: absorption ends the path.
     pub survival: bool,

@@ -17,7 +17,7 @@ pub(crate) trait Scatters<const N: usize> {
     fn eval_from(&self, wo: Vec3, wi: Vec3, w: &Wavelengths<N>) -> (Spectrum<N>, Spectrum<N>);
 }
 
-/// A point of a homogeneous medium.
+/// A point of a medium.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MediumSite<'s, const N: usize> {
     /// The point \[m\].
@@ -26,7 +26,7 @@ pub(crate) struct MediumSite<'s, const N: usize> {
     pub wo: Vec3,
     /// The medium there.
     pub medium: MediumId,
-    /// Its coefficients.
+    /// Its coefficients; where it varies those of density 1.
     pub inside: Inside<'s, N>,
     /// What draws directions beside the phase function.
     pub steering: Option<Steering<'s>>,
