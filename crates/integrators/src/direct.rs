@@ -140,7 +140,9 @@ where
             return self.ember(path, (volume, selected.pmf), u, sampler).unwrap_or(Spectrum::ZERO);
         }
         let from = (self.p, self.half);
-        let Some(sample) = light.sample_li_above(&scene.accel, from, u, w) else { return Spectrum::ZERO };
+        let Some(sample) = light.sample_li_beside_chance(&scene.accel, from, u, w) else {
+            return Spectrum::ZERO;
+        };
         let (f, pdf) = (self.eval)(sample.wi);
         if f.is_zero() {
             return Spectrum::ZERO;

@@ -8,7 +8,7 @@ use crate::{
     observer::PathObserver,
     opaw::{self, AllWavelengths},
     refine::Refinement,
-    reuse::Grouping,
+    reuse::{Grouping, Level},
     settings::{Guiding, Settings},
     swc, volpath, wang_chern,
     weight::PathWeight,
@@ -130,6 +130,8 @@ pub struct PixelPass {
     pub isa: Isa,
     /// How pixels share paths, where that pays; known once the pass has learned.
     pub grouping: Option<Grouping>,
+    /// What light they have in common; known then, too.
+    pub level: Level,
     /// Which pixels take the lowest orders of light from more paths; known then, too.
     pub refinement: Refinement,
 }
@@ -206,6 +208,7 @@ impl PixelPass {
         let pilot = || *pilot.get_or_init(|| self.pilot());
         let (grouping, refinement) = (self.choose_grouping(pilot), self.choose_refinement(pilot));
         (self.grouping, self.refinement) = (grouping, refinement);
+        self.level = self.find_level();
         let field = self.learned(resolution);
         Arc::get_mut(&mut self.scene).expect("the pass alone has the scene").guiding = field;
         self

@@ -77,6 +77,8 @@ pub struct Settings {
     pub guiding: Guiding,
     /// Paths of neighbouring pixels go on from each other's second scattering.
     pub reuse: bool,
+    /// What light the points have in common that paths are shared at is left to each pixel's own path.
+    pub level: bool,
     /// Pixels at the rim of a lamp, around a point of light in a medium, or with a lamp in a rough mirror, take the lowest orders of light from more paths.
     pub refine: bool,
     /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
@@ -104,6 +106,7 @@ impl Default for Settings {
             glow: true,
             guiding: Guiding::Auto,
             reuse: true,
+            level: true,
             refine: true,
             roulette_depth: 1,
             roulette_threshold: 0.25,

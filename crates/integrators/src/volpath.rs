@@ -395,7 +395,7 @@ impl<'s, const N: usize> Walk<'s, N> {
         for &id in self.scene.lights.infinite() {
             let light = self.scene.lights.get(id);
             let le = light.le_infinite(self.previous, self.ray.d, self.w);
-            let pdf = self.pmf(id) * light.pdf_infinite_above((self.previous, self.half), self.ray.d);
+            let pdf = self.pmf(id) * light.pdf_infinite_beside_chance((self.previous, self.half), self.ray.d);
             let by_light = self.weight.r_l * (self.by_light(pdf) * self.heuristic.trust());
             self.met(le, [by_light, Spectrum::ZERO], seen);
         }

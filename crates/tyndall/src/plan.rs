@@ -16,6 +16,7 @@ use tyndall_integrators::{
     layers::{Aov, Layers},
     pixel::{Lanes, PixelPass},
     refine::Refinement,
+    reuse::Level,
 };
 use tyndall_io::{LoadOptions, LoadedScene, load_file, load_text, scene::crop_bounds};
 use tyndall_spectral::LambdaRange;
@@ -139,6 +140,7 @@ pub fn plan(source: Source<'_>, options: &Options) -> Result<Plan, Error> {
         replicates,
         isa: isa(options.dispatch)?,
         grouping: None,
+        level: Level::NONE,
         refinement: Refinement::default(),
     }
     .learning(loaded.film.resolution);

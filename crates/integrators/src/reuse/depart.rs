@@ -27,7 +27,7 @@ pub(super) struct Member<'s, const N: usize> {
 pub(super) struct Common<const N: usize> {
     pub w: Wavelengths<N>,
     /// The number that the wavelengths were drawn by.
-    u: f32,
+    pub u: f32,
     time: f32,
     /// The point whose glow attracts the paths.
     lamp: Option<Vec3>,

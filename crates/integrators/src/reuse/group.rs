@@ -5,11 +5,29 @@ use super::{
     depart::{Member, Origins, Which, pixel_of},
     end::Link,
     join::Yardsticks,
+    level::Level,
 };
-use crate::{pixel::PixelPass, settings::Lengths, volpath::Site};
+use crate::{pixel::PixelPass, settings::Lengths, volpath::Site, weight::divide};
 use tyndall_base::hash;
 use tyndall_film::{Guide, Patch, PixelBounds, WorkUnit};
 use tyndall_spectral::{Spectrum, Wavelengths};
+
+/// What the pixels of a group get.
+pub(super) struct Shares<const N: usize> {
+    pub light: [Spectrum<N>; MOST],
+    /// What each would get of light 1 from everywhere if it did not share, less what it does get: zero on average.
+    pub lack: [Spectrum<N>; MOST],
+    wants_lack: bool,
+}
+
+impl<const N: usize> Shares<N> {
+    /// Nothing yet; `wants_lack` tells whether anybody asks for that.
+    #[inline(always)]
+    pub fn new(wants_lack: bool) -> Self {
+        let nothing = [Spectrum::ZERO; MOST];
+        Self { light: nothing, lack: nothing, wants_lack }
+    }
+}
 
 impl PixelPass {
     /// A unit of work with paths shared.
@@ -55,21 +73,21 @@ impl PixelPass {
         let (mut members, origins) =
             self.depart((square, grouping), which, &common, |(x, y)| out.mark(x, y, sample));
         let mut links = Vec::with_capacity(number);
-        // what the pixels get
-        let mut all = [Spectrum::ZERO; MOST];
+        let mut shares = Shares::new(self.level != Level::NONE);
         for k in 0..number {
             let Some(member) = &mut members[k] else { continue };
             out.mark(member.pixel.0, member.pixel.1, sample);
-            self.go_on(yardsticks, member, (&origins, &mut links), k, w, &mut all);
+            self.go_on(yardsticks, member, (&origins, &mut links), k, w, &mut shares);
         }
-        let response = self.channels.prepare(w);
+        let (response, level) = (self.channels.prepare(w), self.level.at(common.u));
         for k in 0..number {
             let Some(member) = &members[k] else { continue };
             let (x, y) = member.pixel;
             if !takes((x, y)) {
                 continue;
             }
-            self.channels.respond_prepared(&(all[k] * member.exposure), &response, values);
+            let l = shares.light[k] + shares.lack[k] * level;
+            self.channels.respond_prepared(&(l * member.exposure), &response, values);
             let extra = self.refinement.of(x, y);
             if extra.paths > 0 {
                 self.add_low_orders::<N>((x, y), sample, extra, values);
@@ -78,23 +96,29 @@ impl PixelPass {
         }
     }
 
-    /// Follows path `k`, that of `member`, to its end; `all` members get their part.
+    /// Follows path `k`, that of `member`, to its end; the members get their part.
     #[inline(always)]
-    fn go_on<'s, const N: usize>(
+    pub(super) fn go_on<'s, const N: usize>(
         &'s self,
         yardsticks: &Yardsticks,
         member: &mut Member<'s, N>,
         (origins, links): (&Origins<'s, N>, &mut Vec<(usize, Link<N>)>),
         k: usize,
         w: &Wavelengths<N>,
-        all: &mut [Spectrum<N>; MOST],
+        shares: &mut Shares<N>,
     ) {
         let mut company = self.company(yardsticks, (origins, links), k, member, w);
         let Member { walk, site, sampler, .. } = member;
+        let all = &mut shares.light;
         walk.open = false;
         let (mut sends, mut goes_on) = (None, site.is_some());
         if let Some(company) = &mut company {
             let (beta, r_u) = company.start();
+            if shares.wants_lack {
+                let lack = &mut shares.lack;
+                lack[k] += divide(walk.weight.beta, walk.weight.r_u);
+                company.deal(divide(beta, r_u) * -1.0, |i, part| lack[i] += part);
+            }
             all[k] += walk.restart(beta, r_u);
             // each member gets another part of what scatters
             sends = site.take_if(|at| at.tells_apart());

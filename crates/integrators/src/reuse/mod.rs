@@ -28,13 +28,17 @@ mod depart;
 mod end;
 mod group;
 mod join;
+mod level;
 mod worth;
+
+pub use level::Level;
 
 use crate::{
     pixel::{Lanes, PixelPass},
     settings::Settings,
 };
 use tyndall_base::sobol::Sharers;
+use tyndall_film::PixelBounds;
 use tyndall_transport::{Scene, media::Medium};
 
 /// Films of this many pixels along both sides have cells of 2 x 2 pixels where 4 x 4 share. On smaller ones, where
@@ -81,6 +85,15 @@ impl Grouping {
     /// Side of a square \[pixels\].
     pub fn side(&self) -> u32 {
         self.cells * self.cell
+    }
+
+    /// The square of an image that holds the point `at` of the unit square.
+    fn square(&self, at: [f32; 2], resolution: [u32; 2]) -> PixelBounds {
+        let side = self.side();
+        let corner = |k: usize| (at[k] * resolution[k] as f32) as u32 / side * side;
+        let (x0, y0) = (corner(0), corner(1));
+        let end = |from: u32, k: usize| (from + side).min(resolution[k]);
+        PixelBounds { x0, y0, x1: end(x0, 0), y1: end(y0, 1) }
     }
 
     /// Paths of a group.

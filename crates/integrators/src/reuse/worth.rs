@@ -3,7 +3,6 @@
 use super::{Grouping, join::Yardsticks};
 use crate::{pixel::PixelPass, reuse::depart::Common, settings::Lengths};
 use tyndall_base::sobol;
-use tyndall_film::PixelBounds;
 
 /// Squares that are tried.
 const SQUARES: u32 = 32;
@@ -29,15 +28,10 @@ impl PixelPass {
     #[inline(never)]
     fn links(&self, grouping: Grouping, weigh: Lengths) -> Worth {
         let yardsticks = Yardsticks::of(&self.scene, &self.settings, weigh);
-        let side = grouping.side();
         let mut links = Vec::with_capacity(grouping.members());
         let (mut worth, mut points) = (Worth::default(), 0.0);
         for n in 0..SQUARES {
-            let at = sobol::sobol_2d(n, self.seed as u32);
-            let corner = |k: usize| (at[k] * self.resolution[k] as f32) as u32 / side * side;
-            let (x0, y0) = (corner(0), corner(1));
-            let end = |from: u32, k: usize| (from + side).min(self.resolution[k]);
-            let square = PixelBounds { x0, y0, x1: end(x0, 0), y1: end(y0, 1) };
+            let square = grouping.square(sobol::sobol_2d(n, self.seed as u32), self.resolution);
             let common: Common<8> = self.common(&square, n);
             let (mut members, origins) = self.depart((&square, grouping), (n, 0, 0), &common, |_| ());
             for (k, member) in members.iter_mut().enumerate() {

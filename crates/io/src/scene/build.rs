@@ -202,9 +202,9 @@ pub fn build(
     textures.check_all()?;
     let (_, radius) = accel.bounds().bounding_sphere();
     let weigh = |e: &Emission| visible_power(e, ctx.range);
-    let which = integrator.medium_lights;
+    let which = integrator.lights.media;
     lights.extend(light::volumes(&media.table, &media.names, &groups.bindings, camera_medium, which)?);
-    let lights = LightSet::new(lights, radius, &weigh).choosing(integrator.selection, &accel, radius, &weigh);
+    let lights = LightSet::new(lights, radius, &weigh).choosing(integrator.lights, &accel, radius, &weigh);
     let stats = accel.stats();
     let has_alpha = groups.bindings.iter().any(|b| b.alpha.is_some());
     let has_boundaries = groups.bindings.iter().any(|b| b.material.is_interface());

@@ -7,7 +7,7 @@ use super::{
 use tyndall_integrators::{Equiangular, Guiding, Settings, pixel::Method};
 use tyndall_pbrt::{EntityKind, Error, OptionValue, ParamSet};
 use tyndall_transport::{
-    light::{MediumLights, Selection},
+    light::{LightRules, MediumLights, Selection, Skies},
     sampler::SamplerKind,
 };
 
@@ -79,10 +79,8 @@ pub struct IntegratorDescription {
     pub settings: Settings,
     /// Media are left out, as pbrt's `path` does.
     pub ignores_media: bool,
-    /// How lights are chosen.
-    pub selection: Selection,
-    /// Which media are lights.
-    pub medium_lights: MediumLights,
+    /// How lights are sampled.
+    pub lights: LightRules,
 }
 
 /// What an integrator's name stands for: the method, and whether media are left out.
@@ -107,6 +105,7 @@ const KNOWN: &[&str] = &[
     "equiangular",
     "lightsampling",
     "mediumlights",
+    "skies",
     "exacttransmittance",
     "residualratio",
     "survival",
@@ -117,6 +116,7 @@ const KNOWN: &[&str] = &[
     "eachlight",
     "power",
     "pathreuse",
+    "sharedlevel",
     "refine",
     "roulettethreshold",
     "samplebsdf",
@@ -136,8 +136,7 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
             method,
             settings,
             ignores_media: false,
-            selection: Selection::default(),
-            medium_lights: MediumLights::default(),
+            lights: LightRules::default(),
         });
     };
     let p = &declared.params;
@@ -154,12 +153,21 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
         p.ignore(name, "directions are chosen by both techniques");
     }
     let settings = settings(p, method)?;
-    let (selection, medium_lights) = (
-        selection(p)?,
-        when(p, "mediumlights", [MediumLights::Auto, MediumLights::Off, MediumLights::Always])?,
-    );
+    let lights = LightRules {
+        selection: selection(p)?,
+        media: when(p, "mediumlights", [MediumLights::Auto, MediumLights::Off, MediumLights::Always])?,
+        skies: skies(p)?,
+    };
     ctx.finish(p, KNOWN);
-    Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, selection, medium_lights })
+    Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, lights })
+}
+
+fn skies(p: &ParamSet) -> Result<Skies, Error> {
+    match p.string("skies", "auto")?.as_str() {
+        "auto" => Ok(Skies::Auto),
+        "always" => Ok(Skies::Always),
+        other => Err(refuse(p, "skies", "must be auto or always", format!("\"{other}\""))),
+    }
 }
 
 fn selection(p: &ParamSet) -> Result<Selection, Error> {
@@ -214,6 +222,7 @@ fn settings(p: &ParamSet, method: Method) -> Result<Settings, Error> {
         glow: p.bool("glow", default.glow)?,
         guiding: when(p, "guiding", [Guiding::Auto, Guiding::Off, Guiding::Always])?,
         reuse: p.bool("pathreuse", default.reuse)?,
+        level: p.bool("sharedlevel", default.level)?,
         refine: p.bool("refine", default.refine)?,
         each_light: p.bool("eachlight", default.each_light)?,
         power: p.bool("power", default.power)?,

@@ -3,8 +3,13 @@
 //! Clarberg (2008), *Fast equal-area mapping of the (hemi)sphere using SIMD*: every texel of the square subtends the
 //! same solid angle. Radiance is constant over a texel and sampled in proportion to it, so an unoccluded map has no
 //! noise beyond its colours.
+//!
+//! A path that scatters meets the map by chance as well. Where it does, light sampling leaves out what chance finds as easily:
+//! the map is sampled by what it has above its mean (MIS compensation, Karlik, Sik, Vevoda, Skrivan, Krivanek 2019,
+//! *MIS compensation: optimizing sampling techniques in multiple importance sampling*), and a map of one radiance like a sky
+//! without an image.
 
-use super::LiSample;
+use super::{LiSample, UniformInfiniteLight};
 use crate::TransportError;
 use tyndall_base::{Vec3, distribution::Piecewise2d, math, vec::vec3, warp};
 use tyndall_spectral::{Curve, Emission, Spectrum, Wavelengths, curve::SigmoidPolynomial};
@@ -33,11 +38,37 @@ pub struct EnvironmentImage {
     pub mean: Emission,
 }
 
+/// What directions are drawn by where chance finds them, too.
+#[derive(Clone, Debug)]
+enum BesideChance {
+    /// By radiance all the same.
+    All,
+    /// By what is above the mean.
+    Peaks(Piecewise2d),
+    /// Like those of a sky of one radiance, for all texels are alike.
+    Even,
+}
+
+impl BesideChance {
+    fn new(weights: &[f32], n: usize) -> Self {
+        let mean = weights.iter().map(|&w| f64::from(w)).sum::<f64>() / (n * n) as f64;
+        let peaks: Vec<f32> = weights.iter().map(|&w| (f64::from(w) - mean).max(0.0) as f32).collect();
+        // rounding of the mean makes no peak
+        if peaks.iter().all(|&p| f64::from(p) <= 1e-6 * mean) {
+            return Self::Even;
+        }
+        Piecewise2d::new(&peaks, n, n).map_or(Self::All, Self::Peaks)
+    }
+}
+
 /// Parameters: see the module.
 #[derive(Clone, Debug)]
 pub struct ImageInfiniteLight {
     image: EnvironmentImage,
+    /// By radiance.
     distribution: Piecewise2d,
+    /// Where chance meets the map as well.
+    beside_chance: BesideChance,
     /// Light space to the scene: a rotation, possibly with a reflection.
     axes: [Vec3; 3],
 }
@@ -52,13 +83,43 @@ impl ImageInfiniteLight {
         }
         let distribution = Piecewise2d::new(&image.weights, n, n)
             .map_err(|e| TransportError::Unusable { what: "infinite light image", why: e.to_string() })?;
-        Ok(Self { image, distribution, axes })
+        let beside_chance = BesideChance::new(&image.weights, n);
+        Ok(Self { image, distribution, beside_chance, axes })
     }
 
     /// See [`super::Light::sample_li`].
     #[inline]
     pub fn sample_li<const N: usize>(&self, u: [f32; 2], w: &Wavelengths<N>) -> Option<LiSample<N>> {
-        let (uv, pdf) = self.distribution.sample(u);
+        self.sample_by(&self.distribution, u, w)
+    }
+
+    /// See [`super::Light::sample_li_beside_chance`].
+    #[inline]
+    pub fn sample_li_beside_chance<const N: usize>(
+        &self,
+        half: Vec3,
+        u: [f32; 2],
+        w: &Wavelengths<N>,
+    ) -> Option<LiSample<N>> {
+        match &self.beside_chance {
+            BesideChance::All => self.sample_by(&self.distribution, u, w),
+            BesideChance::Peaks(peaks) => self.sample_by(peaks, u, w),
+            BesideChance::Even => {
+                let wi = UniformInfiniteLight::sample_direction(half, u);
+                let (l, pdf) = (self.le(wi, w), UniformInfiniteLight::pdf(half, wi));
+                (pdf > 0.0 && !l.is_zero()).then_some(LiSample { l, wi, target: None, pdf, delta: false })
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn sample_by<const N: usize>(
+        &self,
+        distribution: &Piecewise2d,
+        u: [f32; 2],
+        w: &Wavelengths<N>,
+    ) -> Option<LiSample<N>> {
+        let (uv, pdf) = distribution.sample(u);
         let d = square_to_sphere(uv);
         let wi = self.axes[0] * d.x + self.axes[1] * d.y + self.axes[2] * d.z;
         let l = self.radiance(uv, w);
@@ -76,6 +137,28 @@ impl ImageInfiniteLight {
     #[inline]
     pub fn pdf(&self, d: Vec3) -> f32 {
         self.distribution.pdf(sphere_to_square(self.local(d))) * warp::pdf_uniform_sphere()
+    }
+
+    /// Density of [`Self::sample_li_beside_chance`] \[1/sr\].
+    #[inline]
+    pub fn pdf_beside_chance(&self, half: Vec3, d: Vec3) -> f32 {
+        match &self.beside_chance {
+            BesideChance::All => self.pdf(d),
+            BesideChance::Peaks(peaks) => {
+                peaks.pdf(sphere_to_square(self.local(d))) * warp::pdf_uniform_sphere()
+            }
+            BesideChance::Even => UniformInfiniteLight::pdf(half, d),
+        }
+    }
+
+    /// True when all texels are alike.
+    pub(super) fn is_even(&self) -> bool {
+        matches!(self.beside_chance, BesideChance::Even)
+    }
+
+    /// Light sampling leaves nothing to chance.
+    pub(super) fn sample_all(&mut self) {
+        self.beside_chance = BesideChance::All;
     }
 
     /// Mean emission over directions.

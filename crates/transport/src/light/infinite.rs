@@ -24,14 +24,20 @@ impl UniformInfiniteLight {
         }
     }
 
-    /// See [`super::Light::sample_li_above`].
-    #[inline]
-    pub fn sample_li<const N: usize>(&self, half: Vec3, u: [f32; 2], w: &Wavelengths<N>) -> LiSample<N> {
-        let wi = if half == Vec3::ZERO {
+    /// A direction with that density.
+    #[inline(always)]
+    pub fn sample_direction(half: Vec3, u: [f32; 2]) -> Vec3 {
+        if half == Vec3::ZERO {
             warp::sample_uniform_sphere(u)
         } else {
             Frame::from_z(half).from_local(warp::sample_cosine_hemisphere(u))
-        };
+        }
+    }
+
+    /// See [`super::Light::sample_li_beside_chance`].
+    #[inline]
+    pub fn sample_li<const N: usize>(&self, half: Vec3, u: [f32; 2], w: &Wavelengths<N>) -> LiSample<N> {
+        let wi = Self::sample_direction(half, u);
         LiSample { l: self.emission.sample(w), wi, target: None, pdf: Self::pdf(half, wi), delta: false }
     }
 }

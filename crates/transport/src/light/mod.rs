@@ -28,7 +28,7 @@ pub use infinite::UniformInfiniteLight;
 pub use point::PointLight;
 pub use portal::{Portal, PortalLight, Sky};
 pub use projection::ProjectionLight;
-pub use set::{LightSet, MediumLights, Selected, Selection};
+pub use set::{LightRules, LightSet, MediumLights, Selected, Selection, Skies};
 pub use spot::SpotLight;
 pub use volume::{VolumeLight, VolumePoint};
 
@@ -123,12 +123,16 @@ impl Light {
         u: [f32; 2],
         w: &Wavelengths<N>,
     ) -> Option<LiSample<N>> {
-        self.sample_li_above(accel, (p, Vec3::ZERO), u, w)
+        match self {
+            Self::Image(l) => l.sample_li(u, w),
+            _ => self.sample_li_beside_chance(accel, (p, Vec3::ZERO), u, w),
+        }
     }
 
-    /// The same where only light from the half of the sphere around the unit vector `half` counts; zero for all of it.
+    /// The same for a path that may meet the light by chance, too, and weighs both: what chance finds as easily need not be
+    /// drawn. Only light from the half of the sphere around the unit vector `half` counts; zero for all of it.
     #[inline]
-    pub fn sample_li_above<const N: usize>(
+    pub fn sample_li_beside_chance<const N: usize>(
         &self,
         accel: &Accel,
         (p, half): (Vec3, Vec3),
@@ -141,7 +145,7 @@ impl Light {
             Self::Spot(l) => l.sample_li(p, w),
             Self::Distant(l) => Some(l.sample_li(w)),
             Self::Infinite(l) => Some(l.sample_li(half, u, w)),
-            Self::Image(l) => l.sample_li(u, w),
+            Self::Image(l) => l.sample_li_beside_chance(half, u, w),
             Self::Portal(l) => l.sample_li(p, u, w),
             Self::Goniometric(l) => l.sample_li(p, w),
             Self::Projection(l) => l.sample_li(p, w),
@@ -235,15 +239,18 @@ impl Light {
     /// Density per solid angle with which `sample_li` draws direction `d` from `p` (lights at infinity only).
     #[inline]
     pub fn pdf_infinite(&self, p: Vec3, d: Vec3) -> f32 {
-        self.pdf_infinite_above((p, Vec3::ZERO), d)
+        match self {
+            Self::Image(l) => l.pdf(d),
+            _ => self.pdf_infinite_beside_chance((p, Vec3::ZERO), d),
+        }
     }
 
-    /// The same of [`Self::sample_li_above`].
+    /// The same of [`Self::sample_li_beside_chance`].
     #[inline]
-    pub fn pdf_infinite_above(&self, (p, half): (Vec3, Vec3), d: Vec3) -> f32 {
+    pub fn pdf_infinite_beside_chance(&self, (p, half): (Vec3, Vec3), d: Vec3) -> f32 {
         match self {
             Self::Infinite(_) => UniformInfiniteLight::pdf(half, d),
-            Self::Image(l) => l.pdf(d),
+            Self::Image(l) => l.pdf_beside_chance(half, d),
             Self::Portal(l) => l.pdf(p, d),
             _ => 0.0,
         }
@@ -257,6 +264,22 @@ impl Light {
     /// True when no ray of chance can meet the light.
     pub fn is_hidden(&self) -> bool {
         self.is_delta() || matches!(self, Self::Area(l) if l.is_invisible())
+    }
+
+    /// Light sampling leaves nothing to chance; see [`Skies::Always`].
+    fn sample_all(&mut self) {
+        if let Self::Image(l) = self {
+            l.sample_all();
+        }
+    }
+
+    /// True for a sky of one radiance.
+    pub(super) fn is_even_sky(&self) -> bool {
+        match self {
+            Self::Infinite(_) => true,
+            Self::Image(l) => l.is_even(),
+            _ => false,
+        }
     }
 
     /// True for lights that rays which leave the scene may meet.

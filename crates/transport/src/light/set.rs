@@ -43,6 +43,29 @@ pub enum MediumLights {
     Always,
 }
 
+/// Which skies light sampling draws directions to, and how.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Skies {
+    /// What chance does not find as well: in images what is above the mean; skies of one radiance from surfaces alone. In a medium
+    /// any direction will do, and the sum of what each of many scatterings samples of such a sky varies more than whether the
+    /// path gets there.
+    #[default]
+    Auto,
+    /// All of them, by radiance.
+    Always,
+}
+
+/// How lights are sampled.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LightRules {
+    /// How they are chosen.
+    pub selection: Selection,
+    /// Which media are lights.
+    pub media: MediumLights,
+    /// What of skies is sampled.
+    pub skies: Skies,
+}
+
 /// A light that was chosen and the probability of the choice.
 #[derive(Clone, Copy, Debug)]
 pub struct Selected {
@@ -60,6 +83,8 @@ pub struct LightSet {
     volumes: Vec<(MediumId, LightId)>,
     has_points: bool,
     all: Option<Choice>,
+    /// The same for points of media.
+    within: Option<Choice>,
     local: Option<Choice>,
     /// The tree over the local ones, the choice among the others, and what decides between the two.
     spatial: Option<Spatial>,
@@ -69,10 +94,16 @@ pub struct LightSet {
 struct Spatial {
     tree: LightTree,
     is_local: Vec<bool>,
-    far: Option<Choice>,
-    /// What skies send to any place, and what suns and portals do, as the tree's importance counts.
-    sky: f32,
-    sun: f32,
+    /// For surfaces and for points of media.
+    far: [Far; 2],
+}
+
+/// Lights that are not in the tree.
+#[derive(Clone, Debug)]
+struct Far {
+    choice: Option<Choice>,
+    /// What they send, as the tree's importance counts.
+    sent: f32,
 }
 
 #[derive(Clone, Debug)]
@@ -117,57 +148,72 @@ impl LightSet {
         let all = Choice::new(&powers, |_| true);
         let local = Choice::new(&powers, |i| lights[i].is_local());
         let has_points = lights.iter().any(|l| l.is_local() && l.is_delta());
-        Self { lights, infinite, volumes, has_points, all, local, spatial: None }
+        Self { lights, infinite, volumes, has_points, within: all.clone(), all, local, spatial: None }
     }
 
-    /// The same lights, chosen by `selection`; `weigh` as for [`Self::new`].
+    /// The same lights, sampled by these rules; `weigh` as for [`Self::new`].
     pub fn choosing(
         mut self,
-        selection: Selection,
+        LightRules { selection, skies, .. }: LightRules,
         accel: &Accel,
         scene_radius: f32,
         weigh: &dyn Fn(&Emission) -> f64,
     ) -> Self {
         let powers: Vec<f64> =
             self.lights.iter().map(|l| l.extent(scene_radius) * weigh(l.spectrum())).collect();
-        match selection {
-            Selection::Power => {}
-            Selection::Uniform => {
-                let even: Vec<f64> = powers.iter().map(|p| f64::from(u8::from(*p > 0.0))).collect();
-                self.all = Choice::new(&even, |_| true);
-            }
-            Selection::Tree => self.spatial = self.spatial(accel, scene_radius, &powers),
+        if skies == Skies::Always {
+            self.lights.iter_mut().for_each(Light::sample_all);
+        }
+        let within: Vec<bool> =
+            self.lights.iter().map(|l| skies == Skies::Always || !l.is_even_sky()).collect();
+        let even: Vec<f64> = powers.iter().map(|p| f64::from(u8::from(*p > 0.0))).collect();
+        let weights = if selection == Selection::Uniform { &even } else { &powers };
+        self.all = Choice::new(weights, |_| true);
+        self.within = Choice::new(weights, |i| within[i]);
+        if selection == Selection::Tree {
+            self.spatial = self.spatial(accel, scene_radius, (&powers, &within));
         }
         self
     }
 
-    fn spatial(&self, accel: &Accel, scene_radius: f32, powers: &[f64]) -> Option<Spatial> {
+    fn spatial(
+        &self,
+        accel: &Accel,
+        scene_radius: f32,
+        (powers, within): (&[f64], &[bool]),
+    ) -> Option<Spatial> {
         let bounds = |(i, l): (usize, &Light)| Some((i as u32, LightBounds::of(l, accel, powers[i])?));
         let local: Vec<_> = self.lights.iter().enumerate().filter_map(bounds).collect();
         let is_local: Vec<bool> = self.lights.iter().map(Light::has_place).collect();
-        let far = Choice::new(powers, |i| !is_local[i]);
+        let is_far = is_local.contains(&false);
         // media know where they send light, even few of them
-        if local.is_empty() || (local.len() < FEW && self.volumes.is_empty() && far.is_none()) {
+        if local.is_empty() || (local.len() < FEW && self.volumes.is_empty() && !is_far) {
             return None;
         }
         // pi times the irradiance: of a sky pi^2 L, where its power is 4 pi L times the scene's disk; of a sun pi times its
         // power over that disk
         let radius2 = f64::from(scene_radius) * f64::from(scene_radius);
-        let sent = |keep: &dyn Fn(&Light) -> bool, per: f64| -> f32 {
-            let power: f64 = self.lights.iter().zip(powers).filter(|(l, _)| keep(l)).map(|(_, p)| p).sum();
-            if power > 0.0 && radius2 > 0.0 { (power / (per * radius2)) as f32 } else { 0.0 }
+        // a point of a medium takes light from the whole sphere of a sky, a surface a quarter of that
+        let far = |in_medium: bool| {
+            let keep = |i: usize| !is_local[i] && (within[i] || !in_medium);
+            let per = |l: &Light| match l {
+                Light::Infinite(_) | Light::Image(_) if !in_medium => 4.0,
+                _ => 1.0,
+            };
+            let sent: f64 =
+                (0..powers.len()).filter(|&i| keep(i)).map(|i| powers[i] / per(&self.lights[i])).sum();
+            let sent = if sent > 0.0 && radius2 > 0.0 { (sent / radius2) as f32 } else { 0.0 };
+            Far { choice: Choice::new(powers, keep), sent }
         };
-        let is_dome = |l: &Light| matches!(l, Light::Infinite(_) | Light::Image(_));
-        let sky = sent(&is_dome, 4.0);
-        let sun = sent(&|l| !l.has_place() && !is_dome(l), 1.0);
-        Some(Spatial { tree: LightTree::new(local, self.lights.len()), is_local, far, sky, sun })
+        let far = [far(false), far(true)];
+        Some(Spatial { tree: LightTree::new(local, self.lights.len()), is_local, far })
     }
 
     /// Chooses a light for the point `p` with normal `n`, zero for none.
     #[inline(always)]
     pub fn select_at(&self, p: Vec3, n: Vec3, u: f32) -> Option<Selected> {
         match &self.spatial {
-            None => self.select(u),
+            None => self.for_point(n)?.select(u).into(),
             Some(spatial) => spatial.select(p, n, u),
         }
     }
@@ -176,9 +222,14 @@ impl LightSet {
     #[inline(always)]
     pub fn pmf_at(&self, p: Vec3, n: Vec3, id: LightId) -> f32 {
         match &self.spatial {
-            None => self.pmf(id),
+            None => self.for_point(n).map_or(0.0, |c| c.pmf[id.index()]),
             Some(spatial) => spatial.pmf(p, n, id),
         }
+    }
+
+    #[inline(always)]
+    fn for_point(&self, n: Vec3) -> Option<&Choice> {
+        if n == Vec3::ZERO { self.within.as_ref() } else { self.all.as_ref() }
     }
 
     /// The light `id`.
@@ -272,26 +323,31 @@ impl LightSet {
 }
 
 impl Spatial {
-    /// Share of the lights at infinity at `p` with normal `n`: all of it where no other sends anything. A point of a medium
-    /// takes light from the whole sphere of a sky, a surface a quarter of that.
+    /// The lights at infinity for points with normal `n`, zero in a medium.
+    #[inline(always)]
+    fn far(&self, n: Vec3) -> &Far {
+        &self.far[usize::from(n == Vec3::ZERO)]
+    }
+
+    /// Share of the lights at infinity at `p` with normal `n`: all of it where no other sends anything.
     #[inline(always)]
     fn far_share(&self, p: Vec3, n: Vec3) -> f32 {
-        if self.far.is_none() {
+        let far = self.far(n);
+        if far.choice.is_none() {
             return 0.0;
         }
         let near = self.tree.importance(p, n);
         if near <= 0.0 {
             return 1.0;
         }
-        let far = self.sun + if n == Vec3::ZERO { 4.0 * self.sky } else { self.sky };
-        (far / (near + far)).clamp(LEAST, 1.0 - LEAST)
+        (far.sent / (near + far.sent)).clamp(LEAST, 1.0 - LEAST)
     }
 
     #[inline(never)]
     fn select(&self, p: Vec3, n: Vec3, u: f32) -> Option<Selected> {
         let far_share = self.far_share(p, n);
         if u < far_share {
-            let far = self.far.as_ref()?.select(u / far_share);
+            let far = self.far(n).choice.as_ref()?.select(u / far_share);
             return Some(Selected { pmf: far.pmf * far_share, ..far });
         }
         let rest = 1.0 - far_share;
@@ -305,7 +361,7 @@ impl Spatial {
         if self.is_local[id.index()] {
             return self.tree.pmf(p, n, id.0) * (1.0 - self.far_share(p, n));
         }
-        self.far.as_ref().map_or(0.0, |far| far.pmf[id.index()] * self.far_share(p, n))
+        self.far(n).choice.as_ref().map_or(0.0, |far| far.pmf[id.index()] * self.far_share(p, n))
     }
 }
 
@@ -349,7 +405,7 @@ mod tests {
         }
         lights.push(Light::Distant(DistantLight { towards: vec3(0.0, 0.0, 1.0), emission: emission() }));
         let set = LightSet::new(lights, 10.0, &|_| 1.0);
-        let set = set.choosing(Selection::Tree, &accel, 10.0, &|_| 1.0);
+        let set = set.choosing(LightRules::default(), &accel, 10.0, &|_| 1.0);
         (accel, set)
     }
 
@@ -453,7 +509,7 @@ mod tests {
         let w = tyndall_spectral::Wavelengths::<1>::continuum([550.0], [1.0]);
         let weigh = |e: &Emission| f64::from(e.sample(&w).hero());
         let lights = vec![Light::Area(lamp), Light::Infinite(sky)];
-        let set = LightSet::new(lights, 50.0, &weigh).choosing(Selection::Tree, &accel, 50.0, &weigh);
+        let set = LightSet::new(lights, 50.0, &weigh).choosing(LightRules::default(), &accel, 50.0, &weigh);
         let up = vec3(0.0, 1.0, 0.0);
         let lamp_at = |p, n| set.pmf_at(p, n, LightId(0));
         // irradiance of the lamp at 1 m: area 0.5 m^2, L = 10; of the sky pi

@@ -63,6 +63,7 @@ const EVERYWHERE: &[Variant] = &[
     with_settings("equiangular on first segments", |s| s.equiangular_depth = 0, 1),
     with_settings("path reuse off", |s| s.reuse = false, 1),
     with_settings("path reuse off, equiangular always", reuse_off_equiangular, 1),
+    with_settings("light in common is shared, too", |s| s.level = false, 1),
     with_settings("one light at a time", |s| s.each_light = false, 1),
     with_settings("balance heuristic", |s| s.power = false, 1),
     with_settings("no pixels refined", |s| s.refine = false, 1),

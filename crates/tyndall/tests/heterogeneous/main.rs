@@ -9,5 +9,6 @@ mod known;
 mod media;
 mod painted;
 mod shared;
+mod skies;
 mod sparse;
 mod table;

@@ -8,11 +8,11 @@ use super::common::{
 use super::media::{self, ALBEDO, BANDS};
 use super::sparse;
 use std::sync::Arc;
-use tyndall::integrators::reuse::Grouping;
+use tyndall::integrators::{pixel::PixelPass, reuse::Grouping};
 
 const REFLECTANCE: [f64; 8] = [0.3, 0.6, 0.9, 0.5, 0.7, 0.4, 0.8, 0.2];
-const FEW: Grouping = Grouping { cells: 4, cell: 1 };
-const MANY: Grouping = Grouping { cells: 8, cell: 1 };
+pub const FEW: Grouping = Grouping { cells: 4, cell: 1 };
+pub const MANY: Grouping = Grouping { cells: 8, cell: 1 };
 
 /// The cube between a floor and a wall, under a lamp and the sky.
 fn lit(medium: &str) -> String {
@@ -25,8 +25,19 @@ fn lit(medium: &str) -> String {
 
 /// Band means where paths are shared so, whatever the pilots say.
 fn bands(run: &Run, text: &str, grouping: Option<Grouping>) -> Vec<Estimate> {
+    bands_with(run, text, grouping, |pass| pass.level = pass.find_level())
+}
+
+/// The same of a pass that is changed besides.
+pub fn bands_with(
+    run: &Run,
+    text: &str,
+    grouping: Option<Grouping>,
+    change: impl FnOnce(&mut PixelPass),
+) -> Vec<Estimate> {
     let mut plan = run.plan(text);
     plan.pass.grouping = grouping;
+    change(&mut plan.pass);
     assert_eq!(plan.pass.shares_paths(), grouping.is_some());
     Arc::make_mut(&mut plan.job.film).square = plan.pass.shared_side();
     judge::pooled(&develop(&plan)).split_off(3)

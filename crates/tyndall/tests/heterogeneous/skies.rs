@@ -1,0 +1,91 @@
+//! Skies: what light sampling leaves to chance does not move the mean, nor what shared points leave to a pixel's own path.
+
+use super::common::{
+    Run,
+    judge::{Estimate, Family},
+    scene,
+};
+use super::media::{self, ALBEDO, BANDS};
+use super::shared;
+use std::path::Path;
+use tyndall::integrators::reuse::{Grouping, Level};
+
+const REFLECTANCE: [f64; 8] = [0.3, 0.6, 0.9, 0.5, 0.7, 0.4, 0.8, 0.2];
+
+/// A sky from an image of 8 x 8 texels, of which `texel` gives red, green and blue.
+fn image(dir: &Path, name: &str, texel: impl Fn(usize) -> [f32; 3]) -> String {
+    let file = dir.join(name);
+    let mut bytes = b"PF\n8 8\n-1.0\n".to_vec();
+    bytes.extend((0..64).flat_map(texel).flat_map(f32::to_le_bytes));
+    std::fs::write(&file, bytes).expect("a folder to write to");
+    format!("LightSource \"infinite\" \"bool absolute\" true \"string filename\" \"{}\"\n", file.display())
+}
+
+/// The cube of `medium` over a floor, with other light.
+fn outdoors(medium: &str, light: &str) -> String {
+    let matt = scene::diffuse(&BANDS, &REFLECTANCE);
+    format!("{}WorldBegin\n{light}{medium}{}{matt}{}", media::camera(), media::cube(), scene::plane(-0.1))
+}
+
+fn with(text: &str, switch: &str) -> String {
+    let bare = "Integrator \"volpath\"";
+    assert!(text.contains(bare), "an integrator to switch");
+    text.replace(bare, &format!("{bare} {switch}"))
+}
+
+/// In a medium that does not vary, where paths are shared, and in one that does; from skies alone and beside a lamp.
+#[test]
+fn what_is_left_to_chance_does_not_matter() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let sun = |i: usize| if i == 27 { [40.0, 30.0, 9.0] } else { [0.2, 0.01 * i as f32, 0.5] };
+    let skies = [
+        ("one radiance", media::sky()),
+        ("one radiance and a lamp", media::sky() + &media::lamp()),
+        ("a sun in an image", image(dir.path(), "sun.pfm", sun)),
+        ("an image without one", image(dir.path(), "even.pfm", |_| [0.5, 0.5, 0.5]) + &media::lamp()),
+    ];
+    let homogeneous = media::medium("homogeneous", &media::spectra(&ALBEDO, 1.0));
+    let mut family = Family::default();
+    for (name, sky) in skies {
+        for (kind, medium) in [("even", &homogeneous), ("grid", &media::uniform(&ALBEDO, ""))] {
+            let text = outdoors(medium, &sky);
+            let always = Run::new(BANDS, 768).bands(&with(&text, "\"string skies\" \"always\""));
+            let label = format!("{name}, {kind}");
+            family.equal(&label, &Run::new(BANDS, 768).seed(2).bands(&text), &always);
+        }
+    }
+    family.assert(0.06);
+}
+
+/// Bands where paths are shared so, with the level of the scene or without.
+fn bands(run: &Run, text: &str, grouping: Grouping, level: bool) -> Vec<Estimate> {
+    shared::bands_with(run, text, Some(grouping), |pass| {
+        pass.settings.level = level;
+        pass.level = pass.find_level();
+        assert_eq!(pass.level != Level::NONE, level);
+    })
+}
+
+#[test]
+fn light_in_common_does_not_matter() {
+    let homogeneous = media::medium("homogeneous", &media::spectra(&ALBEDO, 1.0));
+    let mut family = Family::default();
+    let mut gains = Vec::new();
+    for (kind, medium) in [("even", &homogeneous), ("grid", &media::uniform(&ALBEDO, ""))] {
+        let text = outdoors(medium, &(media::sky() + &media::lamp()));
+        for (n, grouping) in [shared::FEW, shared::MANY].into_iter().enumerate() {
+            let run = Run { side: 8, ..Run::new(BANDS, 2048) }.seed(n as u64);
+            let without = bands(&run, &text, grouping, false);
+            for (lanes, seed) in [(4, 5), (8, 6), (16, 7)] {
+                let with = bands(&run.clone().hero(lanes).seed(seed), &text, grouping, true);
+                family.equal(&format!("{kind}, {n}, {lanes} wavelengths"), &with, &without);
+                if lanes == 8 {
+                    let mean = |e: &[Estimate]| e.iter().map(|e| e.se * e.se).sum::<f64>();
+                    gains.push(mean(&with) / mean(&without));
+                }
+            }
+        }
+    }
+    println!("variance with the level to without: {gains:?}");
+    family.assert(0.06);
+}
