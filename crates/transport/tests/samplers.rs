@@ -2,11 +2,12 @@
 #![allow(clippy::unwrap_used)] // a failure here is a failed test
 
 use tyndall_base::{Vec3, vec::vec3};
+use tyndall_geometry::{Accel, BuildOptions, Shape, ShapeGroup, Sphere, Transform};
 use tyndall_spectral::{Curve, Emission, Wavelengths, curve::SigmoidPolynomial};
 use tyndall_testkit::{chi2_2d, chi2_discrete};
 use tyndall_transport::light::{
-    EnvironmentImage, ImageInfiniteLight, Light, LightSet, PointLight, RgbEmission, UniformInfiniteLight,
-    sphere_to_square, square_to_sphere,
+    EnvironmentImage, ImageInfiniteLight, LiSample, Light, LightRules, LightSet, PointLight, RgbEmission, Selection,
+    Skies, UniformInfiniteLight, sphere_to_square, square_to_sphere,
 };
 
 const DRAWS: usize = 200_000;
@@ -21,10 +22,11 @@ fn flat(value: f32) -> Emission {
 
 /// An uneven map, one texel of which is black, turned about an axis.
 fn map() -> ImageInfiniteLight {
-    let texel = |i: usize| RgbEmission {
-        sigmoid: SigmoidPolynomial::constant(0.5),
-        scale: if i == 5 { 0.0 } else { 0.1 + (i * 7 % 13) as f32 },
-    };
+    map_of(|i| if i == 5 { 0.0 } else { 0.1 + (i * 7 % 13) as f32 })
+}
+
+fn map_of(scale: impl Fn(usize) -> f32) -> ImageInfiniteLight {
+    let texel = |i: usize| RgbEmission { sigmoid: SigmoidPolynomial::constant(0.5), scale: scale(i) };
     let texels: Vec<RgbEmission> = (0..SIZE * SIZE).map(texel).collect();
     let weights = texels.iter().map(|t| t.scale).collect();
     let image =
@@ -38,21 +40,87 @@ fn local(d: Vec3) -> Vec3 {
 }
 
 /// In the square of the equal-area map, where the density is constant over texels.
-#[test]
-fn directions_of_an_environment_map() {
-    let light = map();
-    let w = Wavelengths::continuum([450.0, 550.0, 650.0, 750.0], [1.0; 4]);
+fn follow(
+    sample: impl Fn([f32; 2]) -> Option<LiSample<4>>,
+    density: impl Fn(Vec3) -> f32,
+    what: &str,
+) {
     let sample = |rng: &mut tyndall_testkit::Rng| {
-        let s = light.sample_li([rng.f32(), rng.f32()], &w)?;
-        assert!((s.pdf / light.pdf(s.wi) - 1.0).abs() < 1e-3 || on_an_edge(s.wi), "{:?}", s.wi);
+        let s = sample([rng.f32(), rng.f32()])?;
+        assert!((s.pdf / density(s.wi) - 1.0).abs() < 1e-3 || on_an_edge(s.wi), "{:?}", s.wi);
         Some(sphere_to_square(local(s.wi)).map(f64::from))
     };
     let pdf = |uv: [f64; 2]| {
         let d = square_to_sphere(uv.map(|v| v as f32));
         let d = AXES[0] * d.x + AXES[1] * d.y + AXES[2] * d.z;
-        4.0 * std::f64::consts::PI * f64::from(light.pdf(d))
+        4.0 * std::f64::consts::PI * f64::from(density(d))
     };
-    chi2_2d(sample, pdf, [[0.0, 1.0]; 2], DRAWS, 1).assert_ok("environment map", 1);
+    chi2_2d(sample, pdf, [[0.0, 1.0]; 2], DRAWS, 1).assert_ok(what, 3);
+}
+
+#[test]
+fn directions_of_an_environment_map() {
+    let light = map();
+    let w = Wavelengths::continuum([450.0, 550.0, 650.0, 750.0], [1.0; 4]);
+    follow(|u| light.sample_li(u, &w), |d| light.pdf(d), "environment map");
+    let beside = |u| light.sample_li_beside_chance(Vec3::ZERO, u, &w);
+    follow(beside, |d| light.pdf_beside_chance(Vec3::ZERO, d), "what is above its mean");
+    // the mean lies between the sixth and the seventh of the thirteen steps
+    let dim = (0..64).filter(|i| i * 7 % 13 <= 5);
+    for texel in dim {
+        let uv = [(texel % SIZE) as f32 + 0.5, (texel / SIZE) as f32 + 0.5].map(|v| v / SIZE as f32);
+        let d = square_to_sphere(uv);
+        let d = AXES[0] * d.x + AXES[1] * d.y + AXES[2] * d.z;
+        assert!(light.pdf(d) > 0.0 || texel == 5, "the whole map has a density");
+        assert_eq!(light.pdf_beside_chance(Vec3::ZERO, d), 0.0, "texel {texel} is left to chance");
+    }
+}
+
+#[test]
+fn a_map_of_one_radiance_is_sampled_like_a_sky_without_an_image() {
+    let light = map_of(|_| 0.7);
+    let w = Wavelengths::continuum([450.0, 550.0, 650.0, 750.0], [1.0; 4]);
+    let up = vec3(0.6, 0.0, 0.8);
+    for half in [Vec3::ZERO, up] {
+        let beside = |u| light.sample_li_beside_chance(half, u, &w);
+        follow(beside, |d| light.pdf_beside_chance(half, d), "an even map");
+    }
+    assert_eq!(light.pdf_beside_chance(up, up), std::f32::consts::FRAC_1_PI);
+}
+
+/// A sky of one radiance lights surfaces by samples, and points of media by chance alone.
+#[test]
+fn media_leave_even_skies_to_chance() {
+    let (n, id) = (vec3(0.0, 0.0, 1.0), tyndall_transport::LightId);
+    let weigh = |e: &Emission| f64::from(e.continuum().eval(550.0));
+    let sphere = Sphere::new(Transform::translate(0.0, 0.0, 0.0), 1.0, -1.0, 1.0, 360.0).unwrap();
+    let group = ShapeGroup::from(Shape::Sphere(sphere));
+    let accel = Accel::build(vec![group], &[], Vec::new(), &BuildOptions::default()).unwrap();
+    let sky = || Light::Infinite(UniformInfiniteLight { emission: flat(0.2) });
+    let even = || Light::Image(map_of(|_| 0.4));
+    let lamp = || Light::Point(PointLight { p: Vec3::ZERO, intensity: flat(1.0) });
+    let rules = |selection, skies| LightRules { selection, skies, ..LightRules::default() };
+    let p = vec3(0.3, 0.2, 2.0);
+    for selection in [Selection::Tree, Selection::Power, Selection::Uniform] {
+        for sky in [sky(), even()] {
+            let set = |lights, skies| {
+                LightSet::new(lights, 2.0, &weigh).choosing(rules(selection, skies), &accel, 2.0, &weigh)
+            };
+            let both = set(vec![lamp(), sky.clone()], Skies::Auto);
+            assert_eq!(both.pmf_at(p, Vec3::ZERO, id(1)), 0.0);
+            assert!((both.pmf_at(p, Vec3::ZERO, id(0)) - 1.0).abs() < 1e-6, "the lamp is all that is left");
+            assert_eq!(both.select_at(p, Vec3::ZERO, 0.99).unwrap().id, id(0));
+            assert!(both.pmf_at(p, n, id(1)) > 0.0, "surfaces sample both");
+            let all = set(vec![lamp(), sky.clone()], Skies::Always);
+            assert!(all.pmf_at(p, Vec3::ZERO, id(1)) > 0.0, "unless they are asked for");
+            let alone = set(vec![sky], Skies::Auto);
+            assert!(alone.select_at(p, Vec3::ZERO, 0.5).is_none() && alone.select_at(p, n, 0.5).is_some());
+        }
+        // an image with a sun stays
+        let set = LightSet::new(vec![Light::Image(map())], 2.0, &weigh);
+        let set = set.choosing(rules(selection, Skies::Auto), &accel, 2.0, &weigh);
+        assert_eq!(set.pmf_at(p, Vec3::ZERO, id(0)), 1.0);
+    }
 }
 
 /// Within rounding of the border of two texels.
