@@ -6,8 +6,8 @@ use tyndall_geometry::{Accel, BuildOptions, Shape, ShapeGroup, Sphere, Transform
 use tyndall_spectral::{Curve, Emission, Wavelengths, curve::SigmoidPolynomial};
 use tyndall_testkit::{chi2_2d, chi2_discrete};
 use tyndall_transport::light::{
-    EnvironmentImage, ImageInfiniteLight, LiSample, Light, LightRules, LightSet, PointLight, RgbEmission, Selection,
-    Skies, UniformInfiniteLight, sphere_to_square, square_to_sphere,
+    EnvironmentImage, ImageInfiniteLight, LiSample, Light, LightRules, LightSet, PointLight, RgbEmission,
+    Selection, Skies, UniformInfiniteLight, sphere_to_square, square_to_sphere,
 };
 
 const DRAWS: usize = 200_000;
@@ -40,11 +40,7 @@ fn local(d: Vec3) -> Vec3 {
 }
 
 /// In the square of the equal-area map, where the density is constant over texels.
-fn follow(
-    sample: impl Fn([f32; 2]) -> Option<LiSample<4>>,
-    density: impl Fn(Vec3) -> f32,
-    what: &str,
-) {
+fn follow(sample: impl Fn([f32; 2]) -> Option<LiSample<4>>, density: impl Fn(Vec3) -> f32, what: &str) {
     let sample = |rng: &mut tyndall_testkit::Rng| {
         let s = sample([rng.f32(), rng.f32()])?;
         assert!((s.pdf / density(s.wi) - 1.0).abs() < 1e-3 || on_an_edge(s.wi), "{:?}", s.wi);
