@@ -9,6 +9,7 @@ use super::media::{self, ALBEDO, BANDS};
 use super::sparse;
 use std::sync::Arc;
 use tyndall::integrators::{pixel::PixelPass, reuse::Grouping};
+use tyndall_film::Developed;
 
 const REFLECTANCE: [f64; 8] = [0.3, 0.6, 0.9, 0.5, 0.7, 0.4, 0.8, 0.2];
 pub const FEW: Grouping = Grouping { cells: 4, cell: 1 };
@@ -25,22 +26,23 @@ fn lit(medium: &str) -> String {
 
 /// Band means where paths are shared so, whatever the pilots say.
 fn bands(run: &Run, text: &str, grouping: Option<Grouping>) -> Vec<Estimate> {
-    bands_with(run, text, grouping, |pass| pass.level = pass.find_level())
+    let picture = picture(run, text, grouping, |pass| pass.level = pass.find_level());
+    judge::pooled(&picture).split_off(3)
 }
 
-/// The same of a pass that is changed besides.
-pub fn bands_with(
+/// The picture where paths are shared so, of a pass that is changed besides.
+pub fn picture(
     run: &Run,
     text: &str,
     grouping: Option<Grouping>,
     change: impl FnOnce(&mut PixelPass),
-) -> Vec<Estimate> {
+) -> Developed {
     let mut plan = run.plan(text);
     plan.pass.grouping = grouping;
     change(&mut plan.pass);
     assert_eq!(plan.pass.shares_paths(), grouping.is_some());
     Arc::make_mut(&mut plan.job.film).square = plan.pass.shared_side();
-    judge::pooled(&develop(&plan)).split_off(3)
+    develop(&plan)
 }
 
 /// Voxels of the cube are so rough and dense that coarse lengths are far from the exact ones.
