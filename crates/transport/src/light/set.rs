@@ -509,7 +509,8 @@ mod tests {
         let w = tyndall_spectral::Wavelengths::<1>::continuum([550.0], [1.0]);
         let weigh = |e: &Emission| f64::from(e.sample(&w).hero());
         let lights = vec![Light::Area(lamp), Light::Infinite(sky)];
-        let set = LightSet::new(lights, 50.0, &weigh).choosing(LightRules::default(), &accel, 50.0, &weigh);
+        let rules = LightRules { skies: Skies::Always, ..LightRules::default() };
+        let set = LightSet::new(lights, 50.0, &weigh).choosing(rules, &accel, 50.0, &weigh);
         let up = vec3(0.0, 1.0, 0.0);
         let lamp_at = |p, n| set.pmf_at(p, n, LightId(0));
         // irradiance of the lamp at 1 m: area 0.5 m^2, L = 10; of the sky pi
