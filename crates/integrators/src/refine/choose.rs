@@ -1,6 +1,6 @@
 //! Which pixels take light from paths of their own, and from how many.
 //!
-//! Candidates are the pixels onto which lamps and points of light are projected, and those of [`highlights`](super::highlights). A few paths each tell how much the lowest
+//! Candidates are the pixels onto which lamps, points of light and media that are lights are projected, and those of [`highlights`](super::highlights). A few paths each tell how much the lowest
 //! orders vary there; what varies by less than the rest of the picture stays as it is.
 
 use super::{Extra, Refinement};

@@ -1,5 +1,5 @@
 //! More paths for the lowest orders of light in the few pixels where those vary most: at the rim of a lamp that the camera
-//! sees, around a point of light in a medium, and where a rough mirror shows a lamp.
+//! sees, around a point of light in a medium, before a medium that is a light, and where a rough mirror shows a lamp.
 //!
 //! A sample of such a pixel takes its light of `from` and more scatterings from the path that all pixels have, and that of
 //! fewer, which is short work, from `paths` paths of its own:
