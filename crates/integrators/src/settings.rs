@@ -79,7 +79,8 @@ pub struct Settings {
     pub reuse: bool,
     /// What light the points have in common that paths are shared at is left to each pixel's own path.
     pub level: bool,
-    /// Pixels at the rim of a lamp, around a point of light in a medium, before a medium that is a light, or with a lamp in a rough mirror, take the lowest orders of light from more paths.
+    /// Pixels at the rim of a lamp, around a point of light in a medium, before a medium that is a light, or with a lamp in a
+    /// rough mirror, take the lowest orders of light from more paths.
     pub refine: bool,
     /// Russian roulette begins after this many scatterings; `u32::MAX` turns it off.
     pub roulette_depth: u32,

@@ -96,7 +96,7 @@ impl PixelPass {
             let (from, margin) = match light {
                 Light::Area(_) => (1, 0.0),
                 // its points are drawn along the ray, and those behind shine through it
-                Light::Volume(_) => (if self.settings.max_depth >= 1 { 2 } else { 1 }, 0.0),
+                Light::Volume(_) => (1 + u32::from(deep), 0.0),
                 _ if deep && light.has_place() && light.is_delta() => (2, AROUND),
                 _ => continue,
             };

@@ -26,7 +26,7 @@ const WORTH: f64 = 0.02;
 const PARTS: usize = 8;
 
 /// Radiance by part of the wavelengths, over what paths are weighed by; zero for none.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level([f32; PARTS]);
 
 impl Level {

@@ -83,8 +83,8 @@ pub struct LightSet {
     volumes: Vec<(MediumId, LightId)>,
     has_points: bool,
     all: Option<Choice>,
-    /// The same for points of media.
-    within: Option<Choice>,
+    /// The same for points of media, where that is another.
+    within: Option<Option<Choice>>,
     local: Option<Choice>,
     /// The tree over the local ones, the choice among the others, and what decides between the two.
     spatial: Option<Spatial>,
@@ -148,7 +148,7 @@ impl LightSet {
         let all = Choice::new(&powers, |_| true);
         let local = Choice::new(&powers, |i| lights[i].is_local());
         let has_points = lights.iter().any(|l| l.is_local() && l.is_delta());
-        Self { lights, infinite, volumes, has_points, within: all.clone(), all, local, spatial: None }
+        Self { lights, infinite, volumes, has_points, all, within: None, local, spatial: None }
     }
 
     /// The same lights, sampled by these rules; `weigh` as for [`Self::new`].
@@ -166,13 +166,15 @@ impl LightSet {
         }
         let within: Vec<bool> =
             self.lights.iter().map(|l| skies == Skies::Always || !l.is_even_sky()).collect();
-        let even: Vec<f64> = powers.iter().map(|p| f64::from(u8::from(*p > 0.0))).collect();
-        let weights = if selection == Selection::Uniform { &even } else { &powers };
-        self.all = Choice::new(weights, |_| true);
-        self.within = Choice::new(weights, |i| within[i]);
         if selection == Selection::Tree {
             self.spatial = self.spatial(accel, scene_radius, (&powers, &within));
         }
+        let mut weights = powers;
+        if selection == Selection::Uniform {
+            weights.iter_mut().for_each(|p| *p = f64::from(u8::from(*p > 0.0)));
+            self.all = Choice::new(&weights, |_| true);
+        }
+        self.within = within.contains(&false).then(|| Choice::new(&weights, |i| within[i]));
         self
     }
 
@@ -213,7 +215,7 @@ impl LightSet {
     #[inline(always)]
     pub fn select_at(&self, p: Vec3, n: Vec3, u: f32) -> Option<Selected> {
         match &self.spatial {
-            None => self.for_point(n)?.select(u).into(),
+            None => self.for_point(n).map(|c| c.select(u)),
             Some(spatial) => spatial.select(p, n, u),
         }
     }
@@ -227,9 +229,13 @@ impl LightSet {
         }
     }
 
+    /// The choice for points with normal `n`, zero in a medium, where no tree chooses.
     #[inline(always)]
     fn for_point(&self, n: Vec3) -> Option<&Choice> {
-        if n == Vec3::ZERO { self.within.as_ref() } else { self.all.as_ref() }
+        match &self.within {
+            Some(within) if n == Vec3::ZERO => within.as_ref(),
+            _ => self.all.as_ref(),
+        }
     }
 
     /// The light `id`.

@@ -2,16 +2,13 @@
 
 use super::common::{Run, judge::Family, scene};
 use super::known::with_integrator;
-use super::media::{self, ALBEDO, BANDS, EXTINCTION};
+use super::media::{self, ALBEDO, BANDS, EXTINCTION, REFLECTANCE};
 
 const LE: [f64; 8] = [1.0, 2.0, 0.5, 1.0, 3.0, 0.7, 1.0, 0.3];
-const REFLECTANCE: [f64; 8] = [0.3, 0.6, 0.9, 0.5, 0.7, 0.4, 0.8, 0.2];
 
 /// The scene with media as lights for no, some or all points.
 fn choosing(text: &str, which: &str) -> String {
-    let bare = "Integrator \"volpath\"";
-    assert!(text.contains(bare), "an integrator to switch");
-    text.replace(bare, &format!("{bare} \"string mediumlights\" \"{which}\""))
+    media::with_parameters(text, &format!("\"string mediumlights\" \"{which}\""))
 }
 
 fn glow() -> String {

@@ -125,7 +125,5 @@ fn grid_of_temperatures() {
 /// The scene with a parameter `NAME=VALUE` of the integrator.
 pub fn with_integrator(text: &str, set: &str) -> String {
     let Some((name, value)) = set.split_once('=') else { return text.into() };
-    let bare = "Integrator \"volpath\"";
-    assert!(text.contains(bare), "an integrator to switch");
-    text.replace(bare, &format!("{bare} \"bool {name}\" {value}"))
+    media::with_parameters(text, &format!("\"bool {name}\" {value}"))
 }

@@ -5,6 +5,8 @@ use super::common::{Bands, Dialect, scene};
 pub const BANDS: Bands = Bands::new(8);
 pub const EXTINCTION: [f64; 8] = [4.0, 0.6, 2.5, 1.2, 3.3, 0.9, 1.8, 6.0];
 pub const ALBEDO: [f64; 8] = [0.9, 0.4, 0.7, 0.95, 0.5, 0.8, 0.3, 0.6];
+/// Of what stands around the cube.
+pub const REFLECTANCE: [f64; 8] = [0.3, 0.6, 0.9, 0.5, 0.7, 0.4, 0.8, 0.2];
 const LAMP: [f64; 8] = [1.5, 0.5, 1.0, 2.0, 0.3, 1.0, 1.5, 0.5];
 const G: [f64; 8] = [0.7, -0.4, 0.0, 0.5, -0.3, 0.85, 0.2, -0.6];
 
@@ -118,6 +120,13 @@ pub fn conservative() -> Vec<(&'static str, String)> {
 pub fn cube() -> String {
     let shape = scene::cuboid([0.0; 3], [1.0; 3]);
     format!("AttributeBegin\nMediumInterface \"m\" \"\"\n{}\n{shape}AttributeEnd\n", scene::INTERFACE)
+}
+
+/// The scene with `parameters` of its integrator.
+pub fn with_parameters(text: &str, parameters: &str) -> String {
+    let bare = "Integrator \"volpath\"";
+    assert!(text.contains(bare), "an integrator to switch");
+    text.replace(bare, &format!("{bare} {parameters}"))
 }
 
 /// The whole cube seen askew.

@@ -5,13 +5,12 @@ use super::common::{
     judge::{self, Estimate, Family},
     scene,
 };
-use super::media::{self, ALBEDO, BANDS};
+use super::media::{self, ALBEDO, BANDS, REFLECTANCE};
 use super::sparse;
 use std::sync::Arc;
 use tyndall::integrators::{pixel::PixelPass, reuse::Grouping};
 use tyndall_film::Developed;
 
-const REFLECTANCE: [f64; 8] = [0.3, 0.6, 0.9, 0.5, 0.7, 0.4, 0.8, 0.2];
 pub const FEW: Grouping = Grouping { cells: 4, cell: 1 };
 pub const MANY: Grouping = Grouping { cells: 8, cell: 1 };
 

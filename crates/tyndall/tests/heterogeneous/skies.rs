@@ -5,13 +5,11 @@ use super::common::{
     judge::{self, Estimate, Family},
     scene,
 };
-use super::media::{self, ALBEDO, BANDS};
+use super::media::{self, ALBEDO, BANDS, REFLECTANCE};
 use super::shared;
 use std::path::Path;
 use tyndall::integrators::reuse::{Grouping, Level};
 use tyndall_film::Developed;
-
-const REFLECTANCE: [f64; 8] = [0.3, 0.6, 0.9, 0.5, 0.7, 0.4, 0.8, 0.2];
 
 /// A sky from an image of 8 x 8 texels, of which `texel` gives red, green and blue.
 fn image(dir: &Path, name: &str, texel: impl Fn(usize) -> [f32; 3]) -> String {
@@ -26,12 +24,6 @@ fn image(dir: &Path, name: &str, texel: impl Fn(usize) -> [f32; 3]) -> String {
 fn outdoors(medium: &str, light: &str) -> String {
     let matt = scene::diffuse(&BANDS, &REFLECTANCE);
     format!("{}WorldBegin\n{light}{medium}{}{matt}{}", media::camera(), media::cube(), scene::plane(-0.1))
-}
-
-fn with(text: &str, switch: &str) -> String {
-    let bare = "Integrator \"volpath\"";
-    assert!(text.contains(bare), "an integrator to switch");
-    text.replace(bare, &format!("{bare} {switch}"))
 }
 
 /// In a medium that does not vary, where paths are shared, and in one that does; from skies alone and beside a lamp.
@@ -50,7 +42,8 @@ fn what_is_left_to_chance_does_not_matter() {
     for (name, sky) in skies {
         for (kind, medium) in [("even", &homogeneous), ("grid", &media::uniform(&ALBEDO, ""))] {
             let text = outdoors(medium, &sky);
-            let always = Run::new(BANDS, 768).bands(&with(&text, "\"string skies\" \"always\""));
+            let always =
+                Run::new(BANDS, 768).bands(&media::with_parameters(&text, "\"string skies\" \"always\""));
             let label = format!("{name}, {kind}");
             family.equal(&label, &Run::new(BANDS, 768).seed(2).bands(&text), &always);
         }
