@@ -5,7 +5,7 @@ use super::node::LANES;
 use crate::Bounds3;
 use rayon::prelude::*;
 
-const BINS: usize = 32;
+const BINS: usize = 64;
 
 /// A splitting plane: bins below `at` go left.
 #[derive(Clone, Copy, Debug)]

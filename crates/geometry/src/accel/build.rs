@@ -6,14 +6,14 @@
 
 use super::bins::best_plane;
 use super::node::{Block, Bvh, Child, LANES, LEAF_MAX, MAX_DEPTH, Node, Other, WIDTH};
+use super::slabs::SLACK;
 use super::store::Store;
-use super::traverse::SLACK;
 use crate::{Bounds3, GeometryError};
 use rayon::prelude::*;
 use tyndall_base::Vec3;
 
 /// Triangles that a leaf may hold; more than a few blocks never pay.
-const LEAF_TRIANGLES: u32 = 16;
+const LEAF_TRIANGLES: u32 = 8;
 /// Cost of a primitive that is not a triangle, in blocks.
 pub(super) const OTHER_COST: u32 = 3;
 /// From this depth on ranges are halved by count, which bounds the depth whatever the input.

@@ -1,7 +1,7 @@
 //! Rays side by side, eight to a group: what one ray's walk computes, for all of them in step, and the shaft around them.
 //!
 //! **The shaft** holds every ray. A ray enters a box where the greatest of its `(p_k - o_k) r_k` over the near planes `p` and
-//! axes k, and 0, is at most the least over the far ones and `t_max` (`traverse.rs`). With `o_k` and `r_k` from intervals each
+//! axes k, and 0, is at most the least over the far ones and `t_max`, with the reciprocals of `slabs.rs`. With `o_k` and `r_k` from intervals each
 //! product has its bounds at the intervals' ends; rounding is monotone, so the shaft enters each box that a ray of it
 //! enters, to the last bit. Where the rays' directions differ in sign along an axis, the box has to overlap the hull of the
 //! segments there. Source: Wald, Slusallek, Benthin & Wagner 2001 (groups of rays); Boulos, Wald & Shirley 2006, "Geometric
@@ -10,7 +10,7 @@
 use super::lanes::Lanes;
 use super::node::{Block, Node};
 use super::query::LocalRay;
-use super::traverse::SLACK;
+use super::slabs::SLACK;
 use super::triangle::{AXES, distance};
 use crate::Ray;
 use crate::dvec::{DVec3, dvec3};
@@ -75,7 +75,7 @@ impl<L: Lanes> Group<L> {
         [end(0), end(1), end(2)]
     }
 
-    /// The rays whose own walk would enter the box in `slot`: the operations of `Slabs::test`.
+    /// The rays that enter the box in `slot`.
     #[inline(always)]
     pub fn enters(&self, l: L, node: &Node, slot: usize) -> u32 {
         let slot = slot & (GROUP - 1);

@@ -2,7 +2,7 @@
 
 use super::build::{self, Kind, Ref, widen};
 use super::node::Bvh;
-use super::traverse::SLACK;
+use super::slabs::SLACK;
 use super::{BuildStats, InstanceDesc};
 use crate::Bounds3;
 use crate::error::{GeometryError, Place};

@@ -2,9 +2,8 @@
 //!
 //! One walk for all. A node's boxes are tested against the shaft around the rays; those that it enters are tested by each
 //! ray for itself, side by side, and so are the triangles of a leaf. Where fewer than [`LEAST`] rays enter a node they go on
-//! alone. A ray alone visits exactly the leaves whose box it enters (boxes lie within their parents', rounding is
-//! monotone, and the shaft enters whatever a ray enters), and all tests are the same operations, so each answer is that of
-//! the ray's own query, to the last bit.
+//! alone. Triangles are tested by the same operations as alone, the tests of boxes leave out none that a ray meets
+//! (`slabs.rs`), and the shaft enters whatever a ray of it enters, so each answer is that of the ray's own query.
 
 use super::bundle::{GROUP, Group, Plane, Shaft, grazes};
 use super::hull::Hull;
@@ -63,6 +62,9 @@ impl Accel {
                 #[cfg(target_arch = "x86_64")]
                 // SAFETY: the value exists only where the processor has these instructions.
                 Isa::Avx2(l) => unsafe { walk_avx2(l, &ask, &mut fan) },
+                #[cfg(target_arch = "x86_64")]
+                // SAFETY: as above.
+                Isa::Avx512(l) => unsafe { walk_avx2(l.narrow(), &ask, &mut fan) },
             }
         };
         ask.alone(open, &mut fan);
@@ -131,7 +133,7 @@ fn walk_portable(ask: &Ask<'_>, fan: &mut Fan) -> u32 {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 #[inline(never)]
-fn walk_avx2(l: Avx2, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
+fn walk_avx2(l: Avx2<false>, ask: &Ask<'_>, fan: &mut Fan) -> u32 {
     walk(l, ask, fan)
 }
 

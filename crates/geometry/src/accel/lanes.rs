@@ -26,6 +26,8 @@ pub(crate) trait Lanes: Copy {
     fn copysign8(self, a: Self::F8, b: Self::F8) -> Self::F8;
     /// `c - a b`, rounded once.
     fn fnmadd8(self, a: Self::F8, b: Self::F8, c: Self::F8) -> Self::F8;
+    /// `a b - c`, rounded once or twice, whichever is faster: for what may differ in its last bits.
+    fn product_minus8(self, a: Self::F8, b: Self::F8, c: Self::F8) -> Self::F8;
     /// `b` in lanes where `sign` has its sign bit set, else `a`.
     fn blend8(self, sign: Self::F8, a: Self::F8, b: Self::F8) -> Self::F8;
     /// Bit i: the sign bit of `a[i]`.
@@ -185,6 +187,10 @@ impl Lanes for Portable {
     #[inline(always)]
     fn fnmadd8(self, a: [f32; 8], b: [f32; 8], c: [f32; 8]) -> [f32; 8] {
         std::array::from_fn(|i| (-a[i]).mul_add(b[i], c[i]))
+    }
+    #[inline(always)]
+    fn product_minus8(self, a: [f32; 8], b: [f32; 8], c: [f32; 8]) -> [f32; 8] {
+        zip(zip(a, b, |a, b| a * b), c, |ab, c| ab - c)
     }
     #[inline(always)]
     fn blend8(self, sign: [f32; 8], a: [f32; 8], b: [f32; 8]) -> [f32; 8] {

@@ -1,13 +1,14 @@
-//! The lanes on AVX2 and FMA.
+//! The lanes on AVX2 and FMA, with the registers of AVX-512 where there are any.
 
 use super::lanes::Lanes;
 use std::arch::x86_64::*;
 
-/// Proof that this processor has AVX, AVX2, FMA, BMI1, BMI2, LZCNT and POPCNT.
+/// Proof that this processor has AVX, AVX2, FMA, BMI1, BMI2, LZCNT and POPCNT; `WIDE`: and AVX-512 F, VL, DQ, BW and CD,
+/// whose twice as many registers hold all that a walk needs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Avx2(());
+pub(crate) struct Avx2<const WIDE: bool>(());
 
-impl Avx2 {
+impl Avx2<false> {
     /// Asks the processor.
     pub(crate) fn detect() -> Option<Self> {
         let all = is_x86_feature_detected!("avx2")
@@ -17,6 +18,23 @@ impl Avx2 {
             && is_x86_feature_detected!("lzcnt")
             && is_x86_feature_detected!("popcnt");
         all.then_some(Self(()))
+    }
+
+    /// The same with AVX-512.
+    pub(crate) fn wide(self) -> Option<Avx2<true>> {
+        let all = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512vl")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("avx512cd");
+        all.then_some(Avx2(()))
+    }
+}
+
+impl Avx2<true> {
+    /// Without AVX-512.
+    pub(crate) fn narrow(self) -> Avx2<false> {
+        Avx2(())
     }
 }
 
@@ -31,7 +49,7 @@ macro_rules! lanes {
     };
 }
 
-impl Lanes for Avx2 {
+impl<const WIDE: bool> Lanes for Avx2<WIDE> {
     type F8 = __m256;
     type F4 = __m128;
     type D4 = __m256d;
@@ -53,6 +71,7 @@ impl Lanes for Avx2 {
             _mm256_or_ps(_mm256_andnot_ps(sign, a), _mm256_and_ps(sign, b))
         } }
         fnmadd8(a: __m256, b: __m256, c: __m256) -> __m256 { _mm256_fnmadd_ps(a, b, c) }
+        product_minus8(a: __m256, b: __m256, c: __m256) -> __m256 { _mm256_fmsub_ps(a, b, c) }
         blend8(sign: __m256, a: __m256, b: __m256) -> __m256 { _mm256_blendv_ps(a, b, sign) }
         signs8(a: __m256) -> u32 { _mm256_movemask_ps(a) as u32 }
         range8(a: __m256) -> (f32, f32) { {

@@ -16,6 +16,7 @@ mod lanes_avx2;
 mod node;
 mod notes;
 mod query;
+mod slabs;
 mod store;
 mod traverse;
 mod triangle;
@@ -97,7 +98,7 @@ pub enum Dispatch {
     Portable,
     /// AVX2 with FMA and BMI.
     Avx2,
-    /// AVX-512 (F, VL, DQ, BW, CD) for the paths, AVX2 for the traversal.
+    /// AVX-512 (F, VL, DQ, BW, CD).
     Avx512,
 }
 
@@ -108,14 +109,7 @@ impl Dispatch {
         let has = match self {
             Self::Detect | Self::Portable => true,
             Self::Avx2 => lanes_avx2::Avx2::detect().is_some(),
-            Self::Avx512 => {
-                lanes_avx2::Avx2::detect().is_some()
-                    && is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512vl")
-                    && is_x86_feature_detected!("avx512dq")
-                    && is_x86_feature_detected!("avx512bw")
-                    && is_x86_feature_detected!("avx512cd")
-            }
+            Self::Avx512 => lanes_avx2::Avx2::detect().and_then(lanes_avx2::Avx2::wide).is_some(),
         };
         #[cfg(not(target_arch = "x86_64"))]
         let has = matches!(self, Self::Detect | Self::Portable);
@@ -147,7 +141,9 @@ pub struct BuildStats {
 enum Isa {
     Portable,
     #[cfg(target_arch = "x86_64")]
-    Avx2(lanes_avx2::Avx2),
+    Avx2(lanes_avx2::Avx2<false>),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(lanes_avx2::Avx2<true>),
 }
 
 impl Isa {
@@ -156,7 +152,8 @@ impl Isa {
         if dispatch != Dispatch::Portable
             && let Some(l) = lanes_avx2::Avx2::detect()
         {
-            return Self::Avx2(l);
+            let wide = if dispatch == Dispatch::Avx2 { None } else { l.wide() };
+            return wide.map_or(Self::Avx2(l), Self::Avx512);
         }
         let _ = dispatch;
         Self::Portable

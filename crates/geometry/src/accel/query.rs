@@ -44,7 +44,7 @@ pub(crate) struct Query<'a, F> {
     time: f32,
     /// Nearest accepted hit, or the ray's end.
     t: f64,
-    /// The same, rounded up.
+    /// The same, rounded up by a bit or two.
     t_max: f32,
     hit: Option<Hit>,
 }
@@ -97,7 +97,8 @@ impl<'a, F: FnMut(&Hit) -> bool> Query<'a, F> {
             return false;
         }
         self.t = t;
-        self.t_max = if f64::from(hit.t) < t { hit.t.next_up() } else { hit.t };
+        // not less than t, without a branch: whether t was rounded down is as good as random
+        self.t_max = hit.t * (1.0 + f32::EPSILON) + f32::MIN_POSITIVE;
         self.hit = Some(hit);
         true
     }
@@ -138,34 +139,43 @@ impl Kernel for Portable {
     }
 }
 
+/// A kernel and the function that is compiled for its instructions.
 #[cfg(target_arch = "x86_64")]
-impl Kernel for Avx2 {
-    #[inline(always)]
-    fn level<const ANY: bool, F: FnMut(&Hit) -> bool>(
-        self,
-        bvh: &Bvh,
-        from: Child,
-        ray: &LocalRay,
-        query: &mut Query<'_, F>,
-        instance: u32,
-    ) -> bool {
-        // SAFETY: `self` exists only where the processor has these instructions.
-        unsafe { level_avx2::<ANY, F>(self, bvh, from, ray, query, instance) }
-    }
+macro_rules! kernel {
+    ($wide:literal, $level:ident, $features:literal) => {
+        impl Kernel for Avx2<$wide> {
+            #[inline(always)]
+            fn level<const ANY: bool, F: FnMut(&Hit) -> bool>(
+                self,
+                bvh: &Bvh,
+                from: Child,
+                ray: &LocalRay,
+                query: &mut Query<'_, F>,
+                instance: u32,
+            ) -> bool {
+                // SAFETY: `self` exists only where the processor has these instructions.
+                unsafe { $level::<ANY, F>(self, bvh, from, ray, query, instance) }
+            }
+        }
+
+        #[target_feature(enable = $features)]
+        fn $level<const ANY: bool, F: FnMut(&Hit) -> bool>(
+            l: Avx2<$wide>,
+            bvh: &Bvh,
+            from: Child,
+            ray: &LocalRay,
+            query: &mut Query<'_, F>,
+            instance: u32,
+        ) -> bool {
+            walk::<Avx2<$wide>, ANY, F>(l, bvh, from, ray, query, instance)
+        }
+    };
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn level_avx2<const ANY: bool, F: FnMut(&Hit) -> bool>(
-    l: Avx2,
-    bvh: &Bvh,
-    from: Child,
-    ray: &LocalRay,
-    query: &mut Query<'_, F>,
-    instance: u32,
-) -> bool {
-    walk::<Avx2, ANY, F>(l, bvh, from, ray, query, instance)
-}
+kernel!(false, level_avx2, "avx2,fma,bmi1,bmi2,lzcnt,popcnt");
+#[cfg(target_arch = "x86_64")]
+kernel!(true, level_avx512, "avx2,fma,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512dq,avx512bw,avx512cd");
 
 /// Meets the primitives that are not triangles.
 #[inline(never)]
@@ -251,6 +261,8 @@ fn run<const ANY: bool, F: FnMut(&Hit) -> bool>(accel: &Accel, ray: &Ray, query:
         Isa::Portable => Portable.level::<ANY, F>(&accel.world, Child::ROOT, &local, query, WORLD),
         #[cfg(target_arch = "x86_64")]
         Isa::Avx2(l) => l.level::<ANY, F>(&accel.world, Child::ROOT, &local, query, WORLD),
+        #[cfg(target_arch = "x86_64")]
+        Isa::Avx512(l) => l.level::<ANY, F>(&accel.world, Child::ROOT, &local, query, WORLD),
     }
 }
 

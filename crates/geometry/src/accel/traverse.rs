@@ -1,60 +1,14 @@
 //! The walk through one level of the tree, generic over the instruction set.
 //!
-//! Boxes are conservative: they are wider by `2^-20` of a triangle's extent when built and by `2^-20 t` during the walk
-//! (as a drift of the direction), which is more than the edge test in `triangle.rs` can be off.
+//! Boxes are conservative (`slabs.rs`): what is met does not depend on them.
 
 use super::lanes::Lanes;
 use super::node::{Block, Bvh, Child, Node, STACK, WIDTH};
 use super::query::{Kernel, LocalRay, Query, others};
+use super::slabs::Slabs;
 use super::triangle::{Shear, triangles};
 use crate::{Hit, NO_INSTANCE};
 use std::mem::MaybeUninit;
-
-/// Widening of boxes, relative to distance and size: 16 half-ulps.
-pub(crate) const SLACK: f32 = 16.0 / (1u32 << 24) as f32;
-
-/// The ray as the box test wants it.
-struct Slabs<L: Lanes> {
-    /// Index into `Node::planes` of the near plane per axis.
-    near_plane: [usize; 3],
-    o: [L::F8; 3],
-    /// Reciprocals of the directions that arrive earliest and leave latest.
-    near: [L::F8; 3],
-    far: [L::F8; 3],
-}
-
-impl<L: Lanes> Slabs<L> {
-    #[inline(always)]
-    fn new(l: L, ray: &LocalRay) -> Self {
-        let [dx, dy, dz] = ray.d;
-        let d = [dx.abs(), dy.abs(), dz.abs(), 1.0];
-        let size = d[0] + d[1] + d[2];
-        let (drift, least) = (size * SLACK, size * 1e-18);
-        // four lanes in step divide as fast as one; the far reciprocal is finite even across the axis, 1e18 / size
-        let near = tyndall_base::each(d, |d| 1.0 / (d + drift));
-        let far = tyndall_base::each(d, |d| 1.0 / if d - drift > least { d - drift } else { least });
-        let splat = |r: f32, d: f32| l.splat8(r.copysign(d));
-        let behind = |d: f32| (d.to_bits() >> 31) as usize;
-        Self {
-            near_plane: [behind(dx), 2 + behind(dy), 4 + behind(dz)],
-            o: [l.splat8(ray.o[0]), l.splat8(ray.o[1]), l.splat8(ray.o[2])],
-            near: [splat(near[0], dx), splat(near[1], dy), splat(near[2], dz)],
-            far: [splat(far[0], dx), splat(far[1], dy), splat(far[2], dz)],
-        }
-    }
-
-    /// Entry distances, and which boxes are entered before `t_max`.
-    #[inline(always)]
-    fn test(&self, l: L, node: &Node, t_max: L::F8) -> (L::F8, u32) {
-        // the indices are 0/1, 2/3, 4/5 by construction; the masks let the compiler see that they are in range
-        let plane = |k: usize, flip: usize| l.load8(&node.planes[((self.near_plane[k] ^ flip) & 1) + 2 * k]);
-        let t = |k: usize, flip: usize, r: L::F8| l.mul8(l.sub8(plane(k, flip), self.o[k]), r);
-        let near = l.max8(t(0, 0, self.near[0]), l.max8(t(1, 0, self.near[1]), t(2, 0, self.near[2])));
-        let far = l.min8(t(0, 1, self.far[0]), l.min8(t(1, 1, self.far[1]), t(2, 1, self.far[2])));
-        let near = l.max8(near, l.splat8(0.0));
-        (near, l.le8(near, l.min8(far, t_max)))
-    }
-}
 
 /// Children yet to visit, nearest on top: entry distance in the high half (non-negative floats order like their bits).
 ///

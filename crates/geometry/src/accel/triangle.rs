@@ -14,7 +14,7 @@
 use super::lanes::Lanes;
 use super::node::{Block, LANES};
 use super::query::{LocalRay, Query};
-use super::traverse::SLACK;
+use super::slabs::SLACK;
 use crate::Hit;
 use crate::dvec::{DVec3, dvec3};
 
@@ -138,14 +138,20 @@ pub(super) fn triangles<L: Lanes, const ANY: bool, F: FnMut(&Hit) -> bool>(
     found
 }
 
-/// The distance to lane `i`'s plane in `f64`; `None` where that is not in front.
+/// The corners of lane `i`.
 #[inline(always)]
-pub(super) fn distance(block: &Block, i: usize, ray: &LocalRay) -> Option<f64> {
+fn corners(block: &Block, i: usize) -> [DVec3; 3] {
     let corner = |k: usize| {
         let x = |j: usize| f64::from(block.corner[k][j][i]);
         dvec3(x(0), x(1), x(2))
     };
-    let (a, b, c) = (corner(0), corner(1), corner(2));
+    [corner(0), corner(1), corner(2)]
+}
+
+/// The distance to lane `i`'s plane in `f64`; `None` where that is not in front.
+#[inline(always)]
+pub(super) fn distance(block: &Block, i: usize, ray: &LocalRay) -> Option<f64> {
+    let [a, b, c] = corners(block, i);
     let n = (b - a).cross(c - a);
     let facing = n.dot(ray.d64);
     let height = n.dot(a - ray.o64);
@@ -156,14 +162,15 @@ pub(super) fn distance(block: &Block, i: usize, ray: &LocalRay) -> Option<f64> {
     let t = height / facing;
     let magnitude = (n.x * ray.d64.x).abs() + (n.y * ray.d64.y).abs() + (n.z * ray.d64.z).abs();
     // where the ray nearly runs within the plane it may meet that far from the triangle it passed through
-    if facing.abs() <= magnitude * (1.0 / 1024.0) { at_triangle(t, a, b, c, ray) } else { Some(t) }
+    if facing.abs() <= magnitude * (1.0 / 1024.0) { at_triangle(t, block, i, ray) } else { Some(t) }
 }
 
 /// `t` moved to where the ray is in the triangle's box, up to the error of the edge test. A hit in front stays one, so
 /// a ray cannot leave a closed mesh here; one behind stays behind, so a ray that leaves a surface is not caught by it.
 #[cold]
 #[inline(never)]
-fn at_triangle(t: f64, a: DVec3, b: DVec3, c: DVec3, ray: &LocalRay) -> Option<f64> {
+fn at_triangle(t: f64, block: &Block, i: usize, ray: &LocalRay) -> Option<f64> {
+    let [a, b, c] = corners(block, i);
     let (lo, hi) = (a.min(b).min(c).to_array(), a.max(b).max(c).to_array());
     let (o, d) = (ray.o64.to_array(), ray.d64.to_array());
     let largest = |f: &dyn Fn(usize) -> f64| f(0).max(f(1)).max(f(2));

@@ -21,6 +21,9 @@ fn walked(ask: &Ask<'_>, portable: bool) -> Fan {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: the value exists only where the processor has these instructions.
         Isa::Avx2(l) if !portable => unsafe { walk_avx2(l, ask, &mut fan) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Isa::Avx512(l) if !portable => unsafe { walk_avx2(l.narrow(), ask, &mut fan) },
         _ => walk_portable(ask, &mut fan),
     };
     ask.alone(open, &mut fan);
