@@ -5,8 +5,6 @@ use super::node::LANES;
 use crate::Bounds3;
 use rayon::prelude::*;
 
-const BINS: usize = 64;
-
 /// A splitting plane: bins below `at` go left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
@@ -15,13 +13,13 @@ pub(super) struct Plane {
     pub cost: f32,
     low: f32,
     scale: f32,
-    bins: usize,
+    last: usize,
 }
 
 impl Plane {
     #[inline(always)]
     pub fn bin(&self, r: &Ref) -> usize {
-        (((r.middle()[self.axis] - self.low) * self.scale) as usize).min(self.bins - 1)
+        (((r.middle()[self.axis] - self.low) * self.scale) as usize).min(self.last)
     }
 }
 
@@ -33,10 +31,10 @@ struct Bin {
     others: u32,
 }
 
-type Bins = [[Bin; BINS]; 3];
+/// By axis.
+type Bins<const N: usize> = [[Bin; N]; 3];
 
 const EMPTY_BIN: Bin = Bin { bounds: Bounds3::EMPTY, triangles: 0, others: 0 };
-const EMPTY_BINS: Bins = [[EMPTY_BIN; BINS]; 3];
 
 impl Bin {
     fn union(self, b: Self) -> Self {
@@ -59,23 +57,32 @@ impl Bin {
 
 /// The cheapest of the planes between bins on the three axes; `None` when all centres coincide.
 pub(super) fn best_plane(refs: &[Ref], middles: Bounds3) -> Option<Plane> {
-    let bins = if refs.len() < 64 { 16 } else { BINS };
+    // fine bins pay where a cut decides about many
+    match refs.len() {
+        0..64 => best::<16>(refs, middles),
+        64..PARALLEL => best::<32>(refs, middles),
+        _ => best::<64>(refs, middles),
+    }
+}
+
+fn best<const N: usize>(refs: &[Ref], middles: Bounds3) -> Option<Plane> {
     let extent = middles.hi - middles.lo;
     let axis = |k: usize| {
-        let scale = if extent[k] > 0.0 { bins as f32 * 0.999_99 / extent[k] } else { 0.0 };
+        let scale = if extent[k] > 0.0 { N as f32 * 0.999_99 / extent[k] } else { 0.0 };
         // centres closer than an f32 can scale apart count as one
         let scale = if scale.is_finite() { scale } else { 0.0 };
-        Plane { axis: k, at: 0, cost: f32::INFINITY, low: middles.lo[k], scale, bins }
+        Plane { axis: k, at: 0, cost: f32::INFINITY, low: middles.lo[k], scale, last: N - 1 }
     };
     let axes = [axis(0), axis(1), axis(2)];
-    let filled = fill(refs, &axes);
+    let filled = fill::<N>(refs, &axes);
     let usable = axes.into_iter().filter(|p| p.scale > 0.0);
     let best = usable.map(|p| cheapest(p, &filled[p.axis])).min_by(|a, b| a.cost.total_cmp(&b.cost))?;
     (best.at > 0).then_some(best)
 }
 
-fn fill(refs: &[Ref], axes: &[Plane; 3]) -> Bins {
-    let some = |mut bins: Bins, refs: &[Ref]| {
+fn fill<const N: usize>(refs: &[Ref], axes: &[Plane; 3]) -> Bins<N> {
+    let empty = [[EMPTY_BIN; N]; 3];
+    let some = |mut bins: Bins<N>, refs: &[Ref]| {
         for r in refs {
             let triangle = u32::from(r.is_triangle());
             for (plane, row) in axes.iter().zip(&mut bins) {
@@ -88,21 +95,22 @@ fn fill(refs: &[Ref], axes: &[Plane; 3]) -> Bins {
         bins
     };
     if refs.len() < PARALLEL {
-        return some(EMPTY_BINS, refs);
+        return some(empty, refs);
     }
-    let merge = |a: Bins, b: Bins| std::array::from_fn(|k| std::array::from_fn(|i| a[k][i].union(b[k][i])));
-    refs.par_chunks(PARALLEL).map(|c| some(EMPTY_BINS, c)).reduce(|| EMPTY_BINS, merge)
+    let merge =
+        |a: Bins<N>, b: Bins<N>| std::array::from_fn(|k| std::array::from_fn(|i| a[k][i].union(b[k][i])));
+    refs.par_chunks(PARALLEL).map(|c| some(empty, c)).reduce(|| empty, merge)
 }
 
-fn cheapest(mut plane: Plane, row: &[Bin; BINS]) -> Plane {
-    let mut right = [EMPTY_BIN; BINS];
+fn cheapest<const N: usize>(mut plane: Plane, row: &[Bin; N]) -> Plane {
+    let mut right = [EMPTY_BIN; N];
     let mut sum = EMPTY_BIN;
-    for k in (1..plane.bins).rev() {
+    for k in (1..N).rev() {
         sum = sum.union(row[k]);
         right[k] = sum;
     }
     let mut left = EMPTY_BIN;
-    for k in 1..plane.bins {
+    for k in 1..N {
         left = left.union(row[k - 1]);
         if left.is_empty() || right[k].is_empty() {
             continue;
