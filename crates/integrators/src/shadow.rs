@@ -94,11 +94,26 @@ pub fn past<const N: usize>(
     sampler: &mut PathSampler,
 ) -> Option<Shadow<N>> {
     let boundary = !boundaries.is_empty();
-    if settings.exact_transmittance
-        && boundary
+    if boundary
         && let Some(hits) = boundaries.in_order()
-        && let Some(s) = through(scene, settings, &ray, hits, (start, known), w)
+        && let Some(media) = behind(scene, &ray, hits, start.medium)
     {
+        let mut s = Shadow::open(start.medium);
+        let mut inside = start.inside.copied();
+        let mut from = 0.0;
+        for (hit, medium) in hits.iter().zip(media) {
+            if let Some(inside) = &inside {
+                stretch(&mut s, inside, &ray, [from, hit.t], w, settings, sampler)?;
+            }
+            inside = match known {
+                Some((known, inside)) if known == medium => Some(*inside),
+                _ => Inside::of(scene, medium, w),
+            };
+            (from, s.end) = (hit.t, medium);
+        }
+        if let Some(inside) = &inside {
+            stretch(&mut s, inside, &ray, [from, ray.t_max], w, settings, sampler)?;
+        }
         return Some(s);
     }
     let mut s = Shadow::open(start.medium);
@@ -107,12 +122,7 @@ pub fn past<const N: usize>(
         let hit = if boundary { scene.next_boundary(&ray) } else { None };
         let t = hit.as_ref().map_or(ray.t_max, |h| h.t);
         if let Some(inside) = &inside {
-            match inside.tracked(settings) {
-                None => {
-                    attenuate(&mut s, inside, inside.length(&ray, [0.0, t], settings), settings, sampler)?
-                }
-                Some(m) => tracking::transmit(m, &ray, t, w, settings, sampler.stream(), &mut s)?,
-            }
+            stretch(&mut s, inside, &ray, [0.0, t], w, settings, sampler)?;
         }
         let Some(hit) = hit else { return Some(s) };
         let isect = scene.interaction(&ray, &hit);
@@ -123,40 +133,39 @@ pub fn past<const N: usize>(
     }
 }
 
-/// Transmittance in closed form through boundaries that lie apart; `None` where some medium on the way has none.
+/// The media behind each of a few boundaries in their order; `None` where one depends on how it is entered.
 #[inline(always)]
-fn through<const N: usize>(
-    scene: &Scene,
-    settings: &Settings,
-    ray: &Ray,
-    hits: &[Hit],
-    (start, known): (Place<'_, '_, N>, Option<Known<'_, '_, N>>),
-    w: &Wavelengths<N>,
-) -> Option<Shadow<N>> {
-    let mut s = Shadow::open(start.medium);
-    let mut inside = start.inside.copied();
-    let mut from = 0.0;
-    for k in 0..=hits.len() {
-        let to = if k < hits.len() { hits[k].t } else { ray.t_max };
-        if let Some(inside) = &inside {
-            if inside.tracked(settings).is_some() {
-                return None;
-            }
-            s.attenuate(inside, inside.length(ray, [from, to], settings), settings);
+fn behind(scene: &Scene, ray: &Ray, hits: &[Hit], start: MediumId) -> Option<[MediumId; Notes::MOST]> {
+    let mut media = [start; Notes::MOST];
+    let mut medium = start;
+    for (hit, behind) in hits.iter().zip(&mut media) {
+        medium = scene.medium_behind(ray, hit, medium);
+        if matches!(scene.medium(medium), Some(Medium::Painted(_))) {
+            return None;
         }
-        if k < hits.len() {
-            s.end = scene.medium_behind(ray, &hits[k], s.end);
-            if matches!(scene.medium(s.end), Some(Medium::Painted(_))) {
-                return None;
-            }
-            inside = match known {
-                Some((medium, inside)) if medium == s.end => Some(*inside),
-                _ => Inside::of(scene, s.end, w),
-            };
-            from = to;
+        *behind = medium;
+    }
+    Some(media)
+}
+
+/// Passes what lies of one medium between two distances along the ray; `None` when nothing gets through.
+#[inline(always)]
+fn stretch<const N: usize>(
+    s: &mut Shadow<N>,
+    inside: &Inside<'_, N>,
+    ray: &Ray,
+    [from, to]: [f32; 2],
+    w: &Wavelengths<N>,
+    settings: &Settings,
+    sampler: &mut PathSampler,
+) -> Option<()> {
+    match inside.tracked(settings) {
+        None => attenuate(s, inside, inside.length(ray, [from, to], settings), settings, sampler),
+        Some(m) => {
+            let rest = Ray { time: ray.time, ..Ray::new(ray.at(from), ray.d) };
+            tracking::transmit(m, &rest, to - from, w, settings, sampler.stream(), s)
         }
     }
-    Some(s)
 }
 
 /// The remaining ray; `None` when nothing remains.

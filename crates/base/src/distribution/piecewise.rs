@@ -104,7 +104,13 @@ impl Piecewise2d {
 struct Cdf {
     /// `edges[i]` steps lie before bin i; the last entry is 2^24.
     edges: Vec<u32>,
+    /// The bins of the first of every `2^shift` steps, and of the last: where to look for the others (Chen and Asau 1974).
+    guide: Vec<u32>,
+    shift: u32,
 }
+
+/// Bins for each entry of a guide.
+const GUIDED: usize = 4;
 
 impl Cdf {
     fn new(weights: &[f64]) -> Result<Self, DistributionError> {
@@ -114,7 +120,12 @@ impl Cdf {
             sum += s;
             sum
         }));
-        Ok(Self { edges: edges.collect() })
+        let edges: Vec<u32> = edges.collect();
+        let entries = ((edges.len() - 1) / GUIDED).max(1).next_power_of_two();
+        let shift = STEPS.trailing_zeros() - entries.trailing_zeros();
+        let firsts = (0..entries as u32).map(|k| k << shift).chain([STEPS - 1]);
+        let guide = firsts.map(|step| edges.partition_point(|&e| e <= step) as u32 - 1).collect();
+        Ok(Self { edges, guide, shift })
     }
 
     fn bins(&self) -> usize {
@@ -137,7 +148,9 @@ impl Cdf {
     #[inline(always)]
     fn sample(&self, u: f32) -> (f32, f32, usize) {
         let step = step_of(u);
-        let bin = self.edges.partition_point(|&e| e <= step) - 1;
+        let k = (step >> self.shift) as usize;
+        let (least, greatest) = (self.guide[k] as usize, self.guide[k + 1] as usize);
+        let bin = least + self.edges[least + 1..=greatest].partition_point(|&e| e <= step);
         let (first, next) = (self.edges[bin], self.edges[bin + 1]);
         let within = ((step - first) as f32 + 0.5) / (next - first) as f32;
         ((bin as f32 + within) / self.bins() as f32, self.density(bin), bin)
