@@ -46,9 +46,10 @@ pub enum MediumLights {
 /// Which skies light sampling draws directions to, and how.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Skies {
-    /// What chance does not find as well: in images what is above the mean; skies of one radiance from surfaces alone. In a medium
-    /// any direction will do, and the sum of what each of many scatterings samples of such a sky varies more than whether the
-    /// path gets there.
+    /// What chance does not find as well: in images what is above the mean; skies of one radiance from surfaces alone, beside other
+    /// lights only from a path's first surface, if each light is sampled there. In a medium any direction will do, and the sum of
+    /// what each of many scatterings samples of such a sky varies more than whether the path gets there; at a surface the choice
+    /// between sky and lamp varies.
     #[default]
     Auto,
     /// All of them, by radiance.
@@ -83,8 +84,10 @@ pub struct LightSet {
     volumes: Vec<(MediumId, LightId)>,
     has_points: bool,
     all: Option<Choice>,
-    /// The same for points of media, where that is another.
+    /// The same where skies of one radiance are left to chance, if there are any: for points of media ...
     within: Option<Option<Choice>>,
+    /// ... and for surfaces that are not a path's first.
+    on_surfaces: bool,
     local: Option<Choice>,
     /// The tree over the local ones, the choice among the others, and what decides between the two.
     spatial: Option<Spatial>,
@@ -148,7 +151,17 @@ impl LightSet {
         let all = Choice::new(&powers, |_| true);
         let local = Choice::new(&powers, |i| lights[i].is_local());
         let has_points = lights.iter().any(|l| l.is_local() && l.is_delta());
-        Self { lights, infinite, volumes, has_points, all, within: None, local, spatial: None }
+        Self {
+            lights,
+            infinite,
+            volumes,
+            has_points,
+            all,
+            within: None,
+            on_surfaces: false,
+            local,
+            spatial: None,
+        }
     }
 
     /// The same lights, sampled by these rules; `weigh` as for [`Self::new`].
@@ -166,6 +179,8 @@ impl LightSet {
         }
         let within: Vec<bool> =
             self.lights.iter().map(|l| skies == Skies::Always || !l.is_even_sky()).collect();
+        // at a path's first surface each light is sampled: later ones need not choose a sky that chance finds
+        self.on_surfaces = within.contains(&false) && self.few().is_some();
         if selection == Selection::Tree {
             self.spatial = self.spatial(accel, scene_radius, (&powers, &within));
         }
@@ -197,7 +212,7 @@ impl LightSet {
         let radius2 = f64::from(scene_radius) * f64::from(scene_radius);
         // a point of a medium takes light from the whole sphere of a sky, a surface a quarter of that
         let far = |in_medium: bool| {
-            let keep = |i: usize| !is_local[i] && (within[i] || !in_medium);
+            let keep = |i: usize| !is_local[i] && (within[i] || !(in_medium || self.on_surfaces));
             let per = |l: &Light| match l {
                 Light::Infinite(_) | Light::Image(_) if !in_medium => 4.0,
                 _ => 1.0,
@@ -233,7 +248,7 @@ impl LightSet {
     #[inline(always)]
     fn for_point(&self, n: Vec3) -> Option<&Choice> {
         match &self.within {
-            Some(within) if n == Vec3::ZERO => within.as_ref(),
+            Some(within) if self.on_surfaces || n == Vec3::ZERO => within.as_ref(),
             _ => self.all.as_ref(),
         }
     }
@@ -482,8 +497,6 @@ mod tests {
         assert!(better > 150, "{better} of 200");
     }
 
-    /// A lamp over a plain under a sky: the nearer the lamp the more it is chosen, far from it the sky; points of a medium
-    /// are lit by all of the sky.
     #[test]
     fn each_light_is_sampled_where_few_have_power() {
         let few = |powers: &[f32]| {
@@ -503,6 +516,8 @@ mod tests {
         assert_eq!(few(&[1.0, 2.0, 0.0]), None);
     }
 
+    /// A lamp over a plain under a sky: the nearer the lamp the more it is chosen, far from it the sky; points of a medium
+    /// are lit by all of the sky.
     #[test]
     fn sky_and_lamp_share_by_what_they_send() {
         let corners = [vec3(-0.5, 2.0, -0.5), vec3(0.5, 2.0, -0.5), vec3(0.0, 2.0, 0.5)];

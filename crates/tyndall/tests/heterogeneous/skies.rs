@@ -26,7 +26,14 @@ fn outdoors(medium: &str, light: &str) -> String {
     format!("{}WorldBegin\n{light}{medium}{}{matt}{}", media::camera(), media::cube(), scene::plane(-0.1))
 }
 
-/// In a medium that does not vary, where paths are shared, and in one that does; from skies alone and beside a lamp.
+/// A ball on a floor.
+fn solid(light: &str) -> String {
+    let matt = scene::diffuse(&BANDS, &REFLECTANCE);
+    let ball = "AttributeBegin\nTranslate 0.5 0.3 0.5\nShape \"sphere\" \"float radius\" 0.4\nAttributeEnd\n";
+    format!("{}WorldBegin\n{light}{matt}{}{ball}", media::camera(), scene::plane(-0.1))
+}
+
+/// In a medium that does not vary, where paths are shared, in one that does, and without one; from skies alone and beside a lamp.
 #[test]
 fn what_is_left_to_chance_does_not_matter() {
     let dir = tempfile::tempdir().expect("a folder");
@@ -40,8 +47,10 @@ fn what_is_left_to_chance_does_not_matter() {
     let homogeneous = media::medium("homogeneous", &media::spectra(&ALBEDO, 1.0));
     let mut family = Family::default();
     for (name, sky) in skies {
-        for (kind, medium) in [("even", &homogeneous), ("grid", &media::uniform(&ALBEDO, ""))] {
-            let text = outdoors(medium, &sky);
+        let grid = media::uniform(&ALBEDO, "");
+        let scenes =
+            [("even", outdoors(&homogeneous, &sky)), ("grid", outdoors(&grid, &sky)), ("solid", solid(&sky))];
+        for (kind, text) in scenes {
             let always =
                 Run::new(BANDS, 768).bands(&media::with_parameters(&text, "\"string skies\" \"always\""));
             let label = format!("{name}, {kind}");
