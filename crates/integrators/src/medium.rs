@@ -87,6 +87,13 @@ impl<'s, const N: usize> Inside<'s, N> {
         self.varying.filter(|m| settings.lengths == Lengths::Tracked || !m.is_measurable())
     }
 
+    /// `sigma_a` and `sigma_s` of density 1 where that is what the medium has.
+    #[inline(always)]
+    pub fn of_density_one(&self) -> Option<[Spectrum<N>; 2]> {
+        // media of another kind have zeros here
+        (!self.sigma_t.is_zero()).then_some([self.sigma_a, self.sigma_s])
+    }
+
     /// The length of the ray from `from` to `to` \[m\], in a medium that varies the integral of its density; infinite where
     /// nothing gets through.
     #[inline(always)]

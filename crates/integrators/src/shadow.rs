@@ -163,7 +163,8 @@ fn stretch<const N: usize>(
         None => attenuate(s, inside, inside.length(ray, [from, to], settings), settings, sampler),
         Some(m) => {
             let rest = Ray { time: ray.time, ..Ray::new(ray.at(from), ray.d) };
-            tracking::transmit(m, &rest, to - from, w, settings, sampler.stream(), s)
+            let known = inside.of_density_one();
+            tracking::transmit((m, known), &rest, to - from, w, settings, sampler.stream(), s)
         }
     }
 }

@@ -58,6 +58,8 @@ pub struct Collision<'m, const N: usize> {
 pub struct Traveller<'a, 'm, const N: usize> {
     /// The ray.
     pub ray: Ray,
+    /// What is known of the medium; see [`Inside::of_density_one`](crate::medium::Inside::of_density_one).
+    pub known: Option<[Spectrum<N>; 2]>,
     /// Where the segment ends.
     pub t_max: f32,
     /// The path's wavelengths.
@@ -115,7 +117,7 @@ impl<'m, const N: usize> Visitor<'m> for Fly<'_, 'm, N> {
     fn visit<M: MediumModel>(self, model: &'m M, majorants: &'m Majorants) -> Flight<'m, N> {
         let (o, d) = self.local;
         let mut a = self.traveller;
-        let prepared = model.prepare(a.w);
+        let prepared = model.prepare_known(a.w, a.known);
         let unit = model.unit(&prepared);
         let mut passed = Lengths::default();
         let mut walker = majorants.walk(o, d, a.t_max);
@@ -252,10 +254,11 @@ fn over<const N: usize>(unit: Spectrum<N>, j: usize, length: f32) -> Spectrum<N>
     exp(unit.map(|u| (least - u) * length))
 }
 
-/// Transmittance of `medium` along a shadow ray up to `t_max`, multiplied into `s`; `None` when nothing gets through.
+/// Transmittance of `medium` along a shadow ray up to `t_max`, multiplied into `s`; `None` when nothing gets through. What is
+/// known of the medium is as for [`Traveller`].
 #[inline(never)]
 pub fn transmit<const N: usize>(
-    medium: &Heterogeneous,
+    (medium, known): (&Heterogeneous, Option<[Spectrum<N>; 2]>),
     ray: &Ray,
     t_max: f32,
     w: &Wavelengths<N>,
@@ -263,7 +266,8 @@ pub fn transmit<const N: usize>(
     rng: Pcg32,
     s: &mut Shadow<N>,
 ) -> Option<()> {
-    let [t, r_l, r_u] = medium.visit(Transmit { local: medium.local(ray), t_max, w, settings, rng })?;
+    let local = medium.local(ray);
+    let [t, r_l, r_u] = medium.visit(Transmit { local, known, t_max, w, settings, rng })?;
     s.t *= t;
     s.r_l *= r_l;
     s.r_u *= r_u;
@@ -272,6 +276,7 @@ pub fn transmit<const N: usize>(
 
 struct Transmit<'a, const N: usize> {
     local: (Vec3, Vec3),
+    known: Option<[Spectrum<N>; 2]>,
     t_max: f32,
     w: &'a Wavelengths<N>,
     settings: &'a Settings,
@@ -284,7 +289,7 @@ impl<'m, const N: usize> Visitor<'m> for Transmit<'_, N> {
     #[inline(never)]
     fn visit<M: MediumModel>(mut self, model: &'m M, majorants: &'m Majorants) -> Option<[Spectrum<N>; 3]> {
         let (o, d) = self.local;
-        let prepared = model.prepare(self.w);
+        let prepared = model.prepare_known(self.w, self.known);
         let unit = model.unit(&prepared);
         let residual = self.settings.residual && self.settings.exact_transmittance;
         let mut s = Estimate { r_u: Spectrum::ONE, r_l: Spectrum::ONE, roulette: 1.0 };

@@ -29,6 +29,7 @@ impl<'s, const N: usize> Walk<'s, N> {
             if by_light { Ember::of(self.scene, self.medium, self.previous, self.facing) } else { None };
         let traveller = Traveller {
             ray: self.ray,
+            known: self.inside.and_then(|inside| inside.of_density_one()),
             t_max,
             w: self.w,
             settings: self.settings,

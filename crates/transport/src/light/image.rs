@@ -44,7 +44,7 @@ enum BesideChance {
     /// By radiance all the same.
     All,
     /// By what is above the mean.
-    Peaks(Piecewise2d),
+    Peaks(Box<Piecewise2d>),
     /// Like those of a sky of one radiance, for all texels are alike.
     Even,
 }
@@ -57,7 +57,7 @@ impl BesideChance {
         if peaks.iter().all(|&p| f64::from(p) <= 1e-6 * mean) {
             return Self::Even;
         }
-        Piecewise2d::new(&peaks, n, n).map_or(Self::All, Self::Peaks)
+        Piecewise2d::new(&peaks, n, n).map_or(Self::All, |peaks| Self::Peaks(Box::new(peaks)))
     }
 }
 
@@ -66,7 +66,7 @@ impl BesideChance {
 pub struct ImageInfiniteLight {
     image: EnvironmentImage,
     /// By radiance.
-    distribution: Piecewise2d,
+    distribution: Box<Piecewise2d>,
     /// Where chance meets the map as well.
     beside_chance: BesideChance,
     /// Light space to the scene: a rotation, possibly with a reflection.
@@ -83,6 +83,7 @@ impl ImageInfiniteLight {
         }
         let distribution = Piecewise2d::new(&image.weights, n, n)
             .map_err(|e| TransportError::Unusable { what: "infinite light image", why: e.to_string() })?;
+        let distribution = Box::new(distribution);
         let beside_chance = BesideChance::new(&image.weights, n);
         Ok(Self { image, distribution, beside_chance, axes })
     }

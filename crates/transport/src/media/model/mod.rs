@@ -43,6 +43,15 @@ pub trait MediumModel {
         Self: 'm;
     /// Evaluates the spectra at the path's wavelengths.
     fn prepare<'m, const N: usize>(&'m self, w: &'m Wavelengths<N>) -> Self::Prepared<'m, N>;
+    /// The same where `sigma_a` and `sigma_s` of density 1 may be known, of media that are a density times these.
+    #[inline(always)]
+    fn prepare_known<'m, const N: usize>(
+        &'m self,
+        w: &'m Wavelengths<N>,
+        _: Option<[Spectrum<N>; 2]>,
+    ) -> Self::Prepared<'m, N> {
+        self.prepare(w)
+    }
     /// Majorant \[1/m\] per unit of majorant density.
     fn unit<const N: usize>(&self, prepared: &Self::Prepared<'_, N>) -> Spectrum<N>;
     /// `sigma_t` \[1/m\] at `p`.

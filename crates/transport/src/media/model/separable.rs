@@ -45,7 +45,19 @@ impl<D: Density> MediumModel for Separable<D> {
 
     #[inline]
     fn prepare<'m, const N: usize>(&'m self, w: &'m Wavelengths<N>) -> Prepared<'m, N> {
-        let (sigma_a, sigma_s) = (self.sigma_a.sample(w), self.sigma_s.sample(w));
+        self.prepare_known(w, None)
+    }
+
+    #[inline(always)]
+    fn prepare_known<'m, const N: usize>(
+        &'m self,
+        w: &'m Wavelengths<N>,
+        known: Option<[Spectrum<N>; 2]>,
+    ) -> Prepared<'m, N> {
+        let [sigma_a, sigma_s] = match known {
+            Some(known) => known,
+            None => [self.sigma_a.sample(w), self.sigma_s.sample(w)],
+        };
         let le = match &self.source {
             Some(Source::Spectrum { le, .. }) => le.sample(w),
             _ => Spectrum::ZERO,
