@@ -85,9 +85,10 @@ fn a_map_of_one_radiance_is_sampled_like_a_sky_without_an_image() {
     assert_eq!(light.pdf_beside_chance(up, up), std::f32::consts::FRAC_1_PI);
 }
 
-/// A sky of one radiance lights surfaces by samples, and points of media by chance alone.
+/// A sky of one radiance lights points of media by chance alone, and surfaces by samples: beside a few lights from the first
+/// surface, where each is sampled, and else from all.
 #[test]
-fn media_leave_even_skies_to_chance() {
+fn even_skies_are_left_to_chance() {
     let (n, id) = (vec3(0.0, 0.0, 1.0), tyndall_transport::LightId);
     let weigh = |e: &Emission| f64::from(e.continuum().eval(550.0));
     let sphere = Sphere::new(Transform::translate(0.0, 0.0, 0.0), 1.0, -1.0, 1.0, 360.0).unwrap();
@@ -107,7 +108,20 @@ fn media_leave_even_skies_to_chance() {
             assert_eq!(both.pmf_at(p, Vec3::ZERO, id(1)), 0.0);
             assert!((both.pmf_at(p, Vec3::ZERO, id(0)) - 1.0).abs() < 1e-6, "the lamp is all that is left");
             assert_eq!(both.select_at(p, Vec3::ZERO, 0.99).unwrap().id, id(0));
-            assert!(both.pmf_at(p, n, id(1)) > 0.0, "surfaces sample both");
+            assert_eq!(both.pmf_at(p, n, id(1)), 0.0, "surfaces that are not the first sample the lamp");
+            assert_eq!(
+                both.few().map(|(ids, times)| (ids.len(), times)),
+                Some((2, 1)),
+                "the first samples both"
+            );
+            let not_each = LightRules { each: false, ..rules(selection, Skies::Auto) };
+            let drawn = LightSet::new(vec![lamp(), sky.clone()], 2.0, &weigh);
+            let drawn = drawn.choosing(not_each, &accel, 2.0, &weigh);
+            let many = set([vec![lamp(); 6], vec![sky.clone()]].concat(), Skies::Auto);
+            for (set, sky) in [(&drawn, id(1)), (&many, id(6))] {
+                assert!(set.pmf_at(p, n, sky) > 0.0, "all surfaces choose among all");
+                assert_eq!(set.pmf_at(p, Vec3::ZERO, sky), 0.0);
+            }
             let all = set(vec![lamp(), sky.clone()], Skies::Always);
             assert!(all.pmf_at(p, Vec3::ZERO, id(1)) > 0.0, "unless they are asked for");
             let alone = set(vec![sky], Skies::Auto);

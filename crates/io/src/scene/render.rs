@@ -157,6 +157,7 @@ pub fn integrator(ctx: &Context<'_>, declared: Option<&Declared>) -> Result<Inte
         selection: selection(p)?,
         media: when(p, "mediumlights", [MediumLights::Auto, MediumLights::Off, MediumLights::Always])?,
         skies: skies(p)?,
+        each: settings.each_light,
     };
     ctx.finish(p, KNOWN);
     Ok(IntegratorDescription { name: name.into(), method, settings, ignores_media, lights })

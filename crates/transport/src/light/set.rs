@@ -57,7 +57,7 @@ pub enum Skies {
 }
 
 /// How lights are sampled.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct LightRules {
     /// How they are chosen.
     pub selection: Selection,
@@ -65,6 +65,19 @@ pub struct LightRules {
     pub media: MediumLights,
     /// What of skies is sampled.
     pub skies: Skies,
+    /// Whether each of a few lights is sampled at a path's first surface.
+    pub each: bool,
+}
+
+impl Default for LightRules {
+    fn default() -> Self {
+        Self {
+            selection: Selection::default(),
+            media: MediumLights::default(),
+            skies: Skies::default(),
+            each: true,
+        }
+    }
 }
 
 /// A light that was chosen and the probability of the choice.
@@ -167,7 +180,7 @@ impl LightSet {
     /// The same lights, sampled by these rules; `weigh` as for [`Self::new`].
     pub fn choosing(
         mut self,
-        LightRules { selection, skies, .. }: LightRules,
+        LightRules { selection, skies, each, .. }: LightRules,
         accel: &Accel,
         scene_radius: f32,
         weigh: &dyn Fn(&Emission) -> f64,
@@ -180,7 +193,7 @@ impl LightSet {
         let within: Vec<bool> =
             self.lights.iter().map(|l| skies == Skies::Always || !l.is_even_sky()).collect();
         // at a path's first surface each light is sampled: later ones need not choose a sky that chance finds
-        self.on_surfaces = within.contains(&false) && self.few().is_some();
+        self.on_surfaces = each && within.contains(&false) && self.few().is_some();
         if selection == Selection::Tree {
             self.spatial = self.spatial(accel, scene_radius, (&powers, &within));
         }
