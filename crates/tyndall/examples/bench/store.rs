@@ -4,7 +4,7 @@ use crate::efficiency::Measurement;
 use serde_json::{Value, json};
 use std::{
     fs::{self, OpenOptions},
-    io::Write,
+    io::{ErrorKind, Write},
     path::Path,
 };
 
@@ -21,7 +21,15 @@ pub fn line(folder: &Path, value: &Value) -> Result<(), String> {
 /// All lines; those that are no JSON are an error with their number.
 pub fn lines(folder: &Path) -> Result<Vec<Value>, String> {
     let path = folder.join(LINES);
-    let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let text = fs::read_to_string(&path).map_err(|e| match e.kind() {
+        ErrorKind::NotFound => {
+            format!(
+                "{}: nothing was measured; do the stages have anything to do on these scenes?",
+                path.display()
+            )
+        }
+        _ => format!("{}: {e}", path.display()),
+    })?;
     let parse = |(i, line)| {
         serde_json::from_str(line).map_err(|e| format!("{}, line {}: {e}", path.display(), i + 1))
     };
