@@ -162,7 +162,7 @@ fn stretch<const N: usize>(
     match inside.tracked(settings) {
         None => attenuate(s, inside, inside.length(ray, [from, to], settings), settings, sampler),
         Some(m) => {
-            let rest = Ray { time: ray.time, ..Ray::new(ray.at(from), ray.d) };
+            let rest = Ray::new(ray.at(from), ray.d);
             let known = inside.of_density_one();
             tracking::transmit((m, known), &rest, to - from, w, settings, sampler.stream(), s)
         }

@@ -1,8 +1,8 @@
 //! Rays side by side, eight to a group: what one ray's walk computes, for all of them in step, and the shaft around them.
 //!
 //! **The shaft** holds every ray. A ray enters a box where the greatest of its `(p_k - o_k) r_k` over the near planes `p` and
-//! axes k, and 0, is at most the least over the far ones and `t_max`, with the reciprocals of `slabs.rs`. With `o_k` and `r_k` from intervals each
-//! product has its bounds at the intervals' ends; rounding is monotone, so the shaft enters each box that a ray of it
+//! axes k, and 0, is at most the least over the far ones and `t_max`, with the reciprocals of `slabs.rs`. With `o_k` and
+//! `r_k` from intervals each product has its bounds at the intervals' ends; rounding is monotone, so the shaft enters each box that a ray of it
 //! enters, to the last bit. Where the rays' directions differ in sign along an axis, the box has to overlap the hull of the
 //! segments there. Source: Wald, Slusallek, Benthin & Wagner 2001 (groups of rays); Boulos, Wald & Shirley 2006, "Geometric
 //! and arithmetic culling methods for entire ray packets".

@@ -96,7 +96,8 @@ mod tests {
         all
     }
 
-    /// Boxes of all sizes near and far, some flat, widened as they are built, around a point of the ray: each is entered, and no empty slot is.
+    /// Boxes of all sizes near and far, some flat, widened as they are built, around a point of the ray: each is entered, and
+    /// no empty slot is.
     #[test]
     fn a_box_that_holds_a_point_of_the_ray_is_entered() {
         let mut rng = Rng::new(11);

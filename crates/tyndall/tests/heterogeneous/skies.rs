@@ -33,7 +33,8 @@ fn solid(light: &str) -> String {
     format!("{}WorldBegin\n{light}{matt}{}{ball}", media::camera(), scene::plane(-0.1))
 }
 
-/// In a medium that does not vary, where paths are shared, in one that does, and without one; from skies alone and beside a lamp.
+/// In a medium that does not vary, where paths are shared, in one that does, and without one; from skies alone and beside a
+/// lamp.
 #[test]
 fn what_is_left_to_chance_does_not_matter() {
     let dir = tempfile::tempdir().expect("a folder");
